@@ -27,7 +27,7 @@ struct Face {
     double area;
 };
 
-/// By the addition theorem sum_m |sum_f a_f Y_lm(n_f)|^2 = (2 l + 1) / (4 pi) sum_fg a_f a_g P_l(n_f . n_g).
+/// Bond order of a cell, by the addition theorem: sum_m |sum_f a_f Y_lm(n_f)|^2 = (2 l + 1) / (4 pi) sum_fg a_f a_g P_l(n_f . n_g).
 CellOrder measure_cell(const std::vector<Face>& faces) {
     constexpr double negligible = 1e-6;
     double surface = 0;

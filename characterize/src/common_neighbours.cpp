@@ -29,7 +29,7 @@ public:
         }
     }
 
-    /// Of the bond between the particle and one of its neighbours.
+    /// Signature of the bond between the particle and one of its neighbours.
     Signature signature(std::size_t neighbour) const {
         const std::vector<std::size_t>& common = to_[neighbour];
         std::vector<std::array<std::size_t, 2>> bonds;

@@ -32,7 +32,8 @@ struct Coverage {
     Eigen::MatrixXd cells;
 };
 
-/// For equal spheres one diagram serves all radii. The grid holds the radii of the balls (not their growth).
+/// Covered volume of equal spheres, for which one diagram serves all radii. The grid holds the radii of the balls, not their
+/// growth.
 /// @param blocks of the counted particles, at least one.
 Coverage cover_equal_spheres(const PowerDiagram& diagram, const RadialGrid& ball_radii, const Blocks& blocks,
                              const Progress& progress);

@@ -67,7 +67,7 @@ public:
         }
     }
 
-    /// In metres.
+    /// The sums of each particle, lengths in metres.
     Eigen::Matrix<double, 7, Eigen::Dynamic> by_particle() const {
         const double unit = reduced_.unit;
         const double cubic = unit * unit * unit;

@@ -167,7 +167,7 @@ Grid window_sums(Grid grid, int width) {
     return grid;
 }
 
-/// Which of 8 sub-volumes a window belongs to whose lowest grid cell is `place`; -1 if it is none of the box.
+/// Number of the sub-volume (0 to 7) that a window belongs to; -1 if it is not in the box. @param place its lowest grid cell.
 int sub_volume(const Cell& cell, const Grid& grid, const Eigen::Array3i& place, int width) {
     const auto number = [](const Eigen::Array3i& half) { return (half[2] * 2 + half[1]) * 2 + half[0]; };
     for (int axis = 0; axis < 3; ++axis) {

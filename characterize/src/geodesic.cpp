@@ -178,7 +178,8 @@ private:
         return time > 0 ? time : infinity;
     }
 
-    /// Of second order where the voxel behind the neighbour is earlier still, (3 t - 4 t1 + t2) / (2 edge); else of first order.
+    /// The derivative along an axis towards the earlier side. It is of second order, (3 t - 4 t1 + t2) / (2 edge), where the voxel
+    /// behind the neighbour is earlier still, otherwise of first order.
     Upwind upwind(const Voxel& voxel, std::size_t axis) const {
         const double inverse = 1 / (edge_[axis] * edge_[axis]);
         Upwind best;

@@ -25,8 +25,8 @@ double sign(double x) {
     return x > 0 ? 1.0 : (x < 0 ? -1.0 : 0.0);
 }
 
-/// At which radii a diagram is measured: balls of radius^2 = site radius^2 + level. Equal spheres may have any level; others only
-/// 0.
+/// The levels at which a diagram is measured: its balls have radius^2 = site radius^2 + level. Equal spheres may have any level,
+/// unequal ones only 0.
 struct Levels {
     Eigen::VectorXd level;  ///< ascending
 
@@ -43,7 +43,7 @@ void add_simplex(const Levels& levels, double birth, double share, Sums& sums) {
     }
 }
 
-/// Of one edge: the cells of up to two sites that see the same tetrahedron.
+/// The sums of up to two sites whose cells see the same tetrahedron at an edge.
 using Viewers = std::array<Sums*, 2>;
 
 void add_orthoscheme(const Levels& levels, double radius, double a, double b, double c, const Viewers& viewers) {
@@ -120,7 +120,8 @@ void add_small_simplices(const PowerDiagram& diagram, const Levels& levels, cons
     }
 }
 
-/// Of each block of space. Blocks are measured chunk by chunk and summed in order, whatever the number of threads.
+/// The functionals of each block of space. Edges are measured chunk by chunk and summed in order, so that the number of threads
+/// does not matter.
 std::vector<Sums> measure_diagram(const PowerDiagram& diagram, const Levels& levels, const SpaceBlocks& block) {
     constexpr std::size_t chunks = 64;
     const std::vector<Sums> none(static_cast<std::size_t>(block.count), Sums::Zero(levels.level.size(), functionals));

@@ -75,7 +75,8 @@ SoftMotions softest(const SparseMap& matrix, const NullSpace& space, std::uint64
     return {strains.values, x * strains.vectors};
 }
 
-/// As many unknowns, of those for which `choose` says so, as `vectors` has columns: those that span these best.
+/// Chooses as many unknowns as `vectors` has columns: those whose rows span the vectors best.
+/// @param choose whether to choose among the pinned unknowns or among the others.
 std::vector<Index> spanning_unknowns(const Eigen::MatrixXd& vectors, const std::vector<bool>& pinned, bool choose) {
     std::vector<Index> candidate;
     for (Index k = 0; k < vectors.rows(); ++k) {
@@ -233,8 +234,8 @@ private:
         }
     }
 
-    /// As many of the pinned unknowns as `range` (orthonormal columns that span the range of R) has columns, those that span it
-    /// best.
+    /// Unpins as many unknowns as `range` has columns: those that span it best. @param range orthonormal columns that span the
+    /// range of R.
     void unpin(NullSpace& space, const Eigen::MatrixXd& range) const {
         Eigen::MatrixXd load = matrix_.apply_transposed(range);
         const Eigen::MatrixXd free = space.factor->solve(rows_where(load, space.pinned, false));

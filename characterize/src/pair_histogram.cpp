@@ -95,7 +95,7 @@ public:
           scaled_(scaled),
           counts_(Eigen::MatrixXi::Zero(centres.blocks.count, bins)) {}
 
-    /// Those of one entry of the runs with a run of others.
+    /// Counts the pairs that one entry of the runs makes with a run of others.
     void operator()(Index entry, Index first, Index last, const Eigen::Vector3d& shift) {
         const auto i = static_cast<std::size_t>(runs_.particle[static_cast<std::size_t>(entry)]);
         for (Index begin = first; begin < last; begin += chunk) {

@@ -20,10 +20,10 @@ struct ReducedDiagram {
     Index inner_count() const;
 };
 
-/// Of a packing that passed check(). No particle may be inner: the diagram has no edges then.
+/// The diagram of a packing that passed check(). Where no particle is inner, it has no edges.
 ReducedDiagram reduced_diagram(const Packing& packing);
 
-/// The same cells, for spheres whose radii have grown by `growth`.
+/// The diagram of spheres whose radii have grown by `growth`, with the counted cells of `original`.
 PowerDiagram grown_diagram(const Packing& packing, const PowerDiagram& original, double growth, double margin);
 
 /// Throws NotApplicable when no particle is inner.

@@ -6,8 +6,8 @@
 
 namespace coagula::characterize {
 
-/// For normal-and-shear bonds. @param motions 6 N x K, displacements and rotations in mean radii (rigidity_matrix.hpp).
-/// `self_stress` is left empty.
+/// Finds the rigid clusters of normal-and-shear bonds. @param motions 6 N x K, displacements and rotations in mean radii
+/// (rigidity_matrix.hpp). `self_stress` is left empty.
 RigidClusters find_rigid_clusters(const Packing& packing, const ContactNetwork& contacts, const Eigen::MatrixXd& motions,
                                   double tolerance);
 

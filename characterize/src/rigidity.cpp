@@ -54,7 +54,7 @@ Eigen::MatrixXd leverage(const RigidityMatrix& matrix, const SelectedInverse& in
     return sum;
 }
 
-/// From the redundancy of each contact.
+/// Shares the redundancy of each contact among its two particles.
 void share_redundancies(const ContactNetwork& contacts, Index freedoms, Index rows, Rigidity& result) {
     result.particle_redundancy = Eigen::VectorXd::Zero(contacts.particles);
     result.particle_freedom = Eigen::VectorXd::Constant(contacts.particles, static_cast<double>(freedoms));
@@ -127,7 +127,7 @@ bool measure_by_self_stress(const RigidityMatrix& matrix, const RigidityOptions&
     return true;
 }
 
-/// The same by way of the floppy motions, which tell rigid clusters apart, too.
+/// Rank, checks and redundancies by way of the floppy motions, which also tell rigid clusters apart.
 void measure_by_motions(const Packing& packing, const ContactNetwork& contacts, const RigidityMatrix& matrix,
                         const RigidityOptions& options, const Progress& progress, Rigidity& result) {
     const NullSpace space = matrix.contacts() > 0

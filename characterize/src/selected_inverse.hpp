@@ -9,9 +9,9 @@
 
 namespace coagula::characterize {
 
-/// From the last supernode to the first by the recurrence of Takahashi, Fagan and Chin (1973), in blocks: with the factor's columns
-/// J and the rows R below them, Y = L_RJ L_JJ^-1, Z_RJ = -Z_RR Y, Z_JJ = (L_JJ L_JJ^T)^-1 - Y^T Z_RJ. Exact; about twice the work
-/// of the factorisation and the memory of the factor.
+/// The inverse Z follows from the last supernode to the first by the recurrence of Takahashi, Fagan and Chin (1973), in blocks:
+/// with the factor's columns J and the rows R below them, Y = L_RJ L_JJ^-1, Z_RJ = -Z_RR Y, Z_JJ = (L_JJ L_JJ^T)^-1 - Y^T Z_RJ. It
+/// is exact and takes about twice the work of the factorisation and the memory of the factor.
 class SelectedInverse {
 public:
     explicit SelectedInverse(const CholeskyFactor& factor);

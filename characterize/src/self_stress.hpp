@@ -15,8 +15,8 @@ struct SelfStress {
     double smallest_nonzero = unset;  ///< lower estimate of the smallest nonzero singular value of A
 };
 
-/// By Cholesky factors of A A^T, which has fewer rows than A^T A where contacts are few, and is nearly regular where few of them
-/// are redundant. Nothing if there are too many states, or if their number cannot be told this way.
+/// Finds the states by Cholesky factors of A A^T, which has fewer rows than A^T A where contacts are few, and is nearly regular
+/// where few of them are redundant. Returns nothing if there are too many states, or if their number cannot be told this way.
 std::optional<SelfStress> find_self_stress(const RigidityMatrix& matrix, const RigidityOptions& options, const Progress& progress);
 
 }  // namespace coagula::characterize

@@ -63,7 +63,7 @@ double least_power(const EdgeGeometry& geometry) {
     return holds_foot ? geometry.foot_power : std::min(geometry.end_power(0), geometry.end_power(1));
 }
 
-/// Of the copies of an edge of the torus the one whose particle of lowest number is no image.
+/// Whether this copy of an edge of the torus is the one that counts: its particle of lowest number is no image.
 bool is_chosen(const PowerDiagram& diagram, const DiagramEdge& edge) {
     const auto particle = [&](int site) { return diagram.particle[static_cast<std::size_t>(site)]; };
     const auto lowest =

@@ -28,7 +28,7 @@ std::array<double, 2> pyramids(const PowerDiagram& diagram, int first, int secon
     return {share * product, (1 - share) * product};
 }
 
-/// The same for an edge with an end that is flat, whose place is not known.
+/// These volumes for an edge with an end that is flat, whose place is not known.
 std::array<double, 2> pyramids(const EdgeGeometry& geometry, std::size_t side) {
     const EdgeSide& view = geometry.sides[side];
     const double product = view.foot_distance * (geometry.height[0] + geometry.height[1]);

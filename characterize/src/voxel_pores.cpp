@@ -29,7 +29,7 @@ double positive_fraction(double a, double b, double c) {
     return lonely ? corner : 1 - corner;
 }
 
-/// Of a square with these values around it: four triangles that meet in the middle.
+/// Part of a square where a value is positive that is known at the corners. Four triangles that meet in the middle make the square.
 double open_fraction(double a, double b, double c, double d) {
     if (a > 0 && b > 0 && c > 0 && d > 0) {
         return 1;

@@ -16,7 +16,7 @@ struct VoxelRow {
 /// sum[x] = conductance times value, over the six neighbours of each voxel.
 void sum_neighbours(const VoxelRow& row, float* sum);
 
-/// The same for every second voxel, from `first` (0 or 1) on; the other sums are left as they are.
+/// Sums the neighbours of every second voxel, from `first` (0 or 1) on; the other sums are left as they are.
 void sum_neighbours_of_colour(const VoxelRow& row, int first, float* sum);
 
 /// Sum of g drop^2 over the faces to the next voxels, with `applied` added to the drops along x, y, z.

@@ -8,7 +8,7 @@
 #include <string>
 
 extern "C" {
-// Only OpenBLAS has these; null with another BLAS.
+// Only OpenBLAS has these functions. With another BLAS they are null.
 void openblas_set_num_threads(int) __attribute__((weak));  // NOLINT(readability-identifier-naming)
 int openblas_get_num_threads() __attribute__((weak));      // NOLINT(readability-identifier-naming)
 }

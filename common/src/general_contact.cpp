@@ -188,7 +188,7 @@ Vector3d GeneralContact::losses(ContactMemory& memory, const ContactIncrement& i
     const Vector3d shear_part = increment.displacement - normal_part;
     const Vector3d dashpot =
         (or_zero(model_.normal_viscosity) * normal_part + or_zero(model_.shear_viscosity) * shear_part) / duration;
-    // By the trapezoidal rule, as central differences do work.
+    // The work of the dashpot is summed by the trapezoidal rule, as central differences do work.
     dissipated += 0.5 * (memory.dashpot + dashpot).dot(increment.displacement);
     memory.dashpot = dashpot;
 

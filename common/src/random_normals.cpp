@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Normal numbers in bulk. The loops run over blocks of particles and hold no calls and no branches, so that the compiler turns them
-// into vector instructions; without fused multiply-add every variant gives the same bits.
+// Normal and uniform random numbers for many particles at a time. The loops run over blocks of particles and hold no calls and no
+// branches, so that the compiler turns them into vector instructions; without fused multiply-add every variant gives the same bits.
 #include <coagula/common/random.hpp>
 #include <coagula/common/vector_variants.hpp>
 
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t block = 64;
 
-/// One block of counters, and later of random words.
+/// The counters of one block of particles. Encryption turns them into random words.
 struct Words {
     alignas(64) std::array<std::array<std::uint32_t, block>, 4> word{};
 };
@@ -120,7 +120,7 @@ COAGULA_VARIANTS void fill_block(Words& words, std::uint64_t seed, double* x, do
     }
 }
 
-/// Of the last ten bits of a word.
+/// A uniform number of zero mean and unit variance, from the last ten bits of a word.
 inline __attribute__((always_inline)) double to_uniform(std::uint32_t word) {
     constexpr double levels = 1024;
     const double scale = std::sqrt(12 / (levels * levels - 1));

@@ -54,7 +54,7 @@ void assess(const BlockMatrix& full, const Loads& f, const Row& norm, const Row&
     solution.converged = (residual <= 2 * rule.residual || error <= rule.energy).all();
 }
 
-/// Each load looks along its own direction.
+/// Each load moves along its own direction: plain conjugate gradients.
 class OwnDirections {
 public:
     void begin(const Loads& r, Loads& d, const Columns& /*open*/) { rz_ = dot(r, d); }
@@ -77,7 +77,7 @@ private:
     Row rz_;
 };
 
-/// Each load looks along the directions of all.
+/// Each load moves along the directions of all: block conjugate gradients.
 class SharedDirections {
 public:
     static void begin(const Loads& /*r*/, Loads& d, const Columns& open) { d = d * open.cast<double>().matrix().asDiagonal(); }

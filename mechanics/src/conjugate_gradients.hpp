@@ -33,8 +33,9 @@ Solution conjugate_gradients(const BlockMatrix& full, const Loads& f, const Eige
                              const std::function<void(const Loads&, Loads&)>& precondition, const StopRule& rule,
                              const Progress& progress);
 
-/// The same in the space that all six loads have reached together (O'Leary, Linear Algebra Appl. 29, 293, 1980). It needs fewer
-/// products with K; but where K has modes of hardly any stiffness it does not come as close to the solution.
+/// Solves K x = f for all six loads in the space that they have reached together (O'Leary, Linear Algebra Appl. 29, 293, 1980). It
+/// needs fewer products with K than conjugate_gradients(). Where K has modes of hardly any stiffness it does not come as close to
+/// the solution.
 Solution block_conjugate_gradients(const BlockMatrix& full, const Loads& f, const Eigen::Matrix<double, 6, 1>& affine_energy,
                                    const std::function<void(const Loads&, Loads&)>& precondition, const StopRule& rule,
                                    const Progress& progress);

@@ -222,7 +222,7 @@ void check_finite(const FrequencyPoint& point) {
                         " Hz is not a finite number: the frequency or a parameter of the contact model is out of range");
 }
 
-/// Those that the model has and that act at vanishing strain.
+/// The parameters that the model has and that act at vanishing strain.
 std::vector<ContactParameter> acting_parameters(const ContactModel& model) {
     std::vector<ContactParameter> acting;
     const auto all = contact_parameters();

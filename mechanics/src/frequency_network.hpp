@@ -33,7 +33,7 @@ struct Forms {
     Tensor drag = Tensor::Zero();     ///< of D
     Tensor rough = Tensor::Zero();    ///< of the films that are as thin as they can be
     std::vector<Tensor> changes;      ///< of other springs in the place of S
-    /// The same with the complex conjugate, for each strain: squared amplitudes.
+    /// Sums of the squared amplitudes, for each strain: a deformation times its complex conjugate.
     Powers along_power = Powers::Zero();
     Powers across_power = Powers::Zero();
     Powers drag_power = Powers::Zero();

@@ -94,7 +94,7 @@ Solution solve_iteratively(Problem& problem, const Packing& packing, const LoadB
     return solution;
 }
 
-/// The same by another program.
+/// Lets another program solve the problem, which it reads from a file and answers by one.
 SolvedNetwork solve_elsewhere(const LinearNetwork& network, const Packing& packing, const LoadBearing& kept,
                               const LinearOptions& options) {
     const std::filesystem::path problem = options.folder / "problem";

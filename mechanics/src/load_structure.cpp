@@ -192,7 +192,7 @@ private:
         return load;
     }
 
-    /// Over the mean radius.
+    /// Deformation of a bond over the mean radius.
     Deformations<1> deformation(const LinearBond& bond, Index first, Index second, Index strain) const {
         const Eigen::Matrix3Xd& u = response_.displacement[static_cast<std::size_t>(strain)];
         const Eigen::Matrix3Xd& theta = response_.rotation[static_cast<std::size_t>(strain)];
@@ -242,8 +242,8 @@ private:
         load.energy_participation = participation_ratio(load.particle_energy_share, packing_.size());
     }
 
-    /// Over the mean radius. A periodic network may translate as a whole: what counts is the displacement relative to the median
-    /// of each component, because the mean follows the few particles that move by thousands.
+    /// Displacement of every particle over the mean radius. A periodic network may translate as a whole, so displacements are taken
+    /// relative to the median of each component. The mean would follow the few particles that move by thousands.
     Eigen::VectorXd displacement_lengths(Index strain) const {
         const Eigen::Matrix3Xd& u = response_.displacement[static_cast<std::size_t>(strain)];
         Eigen::Vector3d common = Eigen::Vector3d::Zero();

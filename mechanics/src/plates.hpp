@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The sample in the rheometer: between plates made of its own periodic repetition, or on its own.
+// Mounts a packing in the rheometer: between two plates, which are slices of its periodic images, or on its own in a periodic cell.
 #pragma once
 
 #include <coagula/common/contact_network.hpp>
@@ -10,7 +10,7 @@
 
 namespace coagula::mechanics {
 
-/// What is put into the rheometer.
+/// The packing that is sheared: the sample and its plates, if there are any.
 struct MountedSample {
     Packing packing;                 ///< the sample first, then the plates; periodic, with room between the plates' backs
     ContactNetwork bonds;            ///< those inside the plates left out

@@ -32,7 +32,7 @@ std::string objection_to_value(double value, const char* object, Index structure
                : is + " Pa, but must lie between " + to_text(smallest_modulus) + " and " + to_text(largest_modulus) + " Pa";
 }
 
-/// Of values that lie too close for their range. @param a rising, all different.
+/// A sentence about two values that lie too close for the range of all; empty where there are none. @param a rising, all different.
 std::string objection_to_spacing(const std::set<double>& a) {
     const double range = *a.rbegin() - *a.begin();
     const auto close =

@@ -57,7 +57,7 @@ void check_height(const ShearOrientation& orientation, double lowest_strain) {
             "the uniaxial strain is " + to_text(lowest_strain) + ", but must be above -1, where the cell has no height left");
 }
 
-/// That on the plates: the normal stress where the strain is uniaxial.
+/// The stress on the plates: a shear stress, or the normal stress where the strain is uniaxial.
 double plate_stress(const StrainPoint& point, const ShearOrientation& orientation) {
     return point.stress(orientation.normal, orientation.direction);
 }

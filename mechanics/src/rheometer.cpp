@@ -158,7 +158,7 @@ private:
         return system;
     }
 
-    /// Of a particle of mean radius [kg].
+    /// The scaled mass of a particle of mean radius [kg].
     double mass() const { return scaled_mass(packing_, bonds_, law_, options_, time_step_); }
 
     RheometerResult describe(RheometerResult result) const {

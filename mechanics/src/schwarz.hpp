@@ -34,7 +34,8 @@ public:
     /// @param lengths edge lengths of the cell, any unit.
     SchwarzPreconditioner(const BlockMatrix& upper, const BlockMatrix& full, const Eigen::Matrix3Xd& fraction,
                           const Eigen::Vector3d& lengths, const SchwarzOptions& options, const Progress& progress);
-    /// The same of a part. The neighbours reach as far as the boxes overlap.
+    /// Preconditioner of the part of a network that one process has. `fraction` holds its neighbours too, as far as the boxes
+    /// overlap.
     SchwarzPreconditioner(const BlockMatrix& upper, const BlockMatrix& full, const Eigen::Matrix3Xd& fraction,
                           const Eigen::Vector3d& lengths, const SchwarzOptions& options, const Progress& progress, SharedPart part);
     ~SchwarzPreconditioner();

@@ -59,7 +59,7 @@ inline void set_shear_rate(SimpleInteractions& /*laws*/, double /*rate*/) {}
 inline void set_shear_rate(dem::GeneralInteractions& laws, double rate) {
     laws.solvent.shear_rate = rate;
 }
-/// The same without losses that depend on the rate.
+/// The interactions without losses that depend on the rate.
 inline SimpleInteractions at_rest(const SimpleInteractions& laws) {
     return laws;
 }

@@ -56,15 +56,15 @@ public:
     Index particles() const { return positions_.cols(); }
     const std::vector<ShearedContact>& contacts() const { return contacts_; }
     double strain() const { return strain_; }
-    /// Before the strain [m^3]. Times the Cauchy stress it is the work per strain: shear keeps the volume, and uniaxial strain the
-    /// area of the plates.
+    /// Volume before the strain [m^3]. The Cauchy stress times this volume is the work per strain, because shear keeps the volume
+    /// and uniaxial strain keeps the area of the plates.
     double volume() const { return volume_; }
 
     /// Forces after a strain increment and a motion since the committed state.
     void evaluate(double strain_increment, const Motion& motion, Trial& trial) const;
 
     std::vector<Slope> linearise(const Trial& trial) const;
-    /// Of the k-th contact, as below.
+    /// The tangent of the k-th contact at a trial motion.
     Slope slope_of(Index k, const Trial& trial) const;
     /// @param turns with relative rotations.
     ContactModes modes_of(Index k, const Trial& trial, bool turns) const;
@@ -89,7 +89,8 @@ public:
         Index contact = -1;
     };
     Worst most_loaded(const std::vector<ContactMemory>& memory) const;
-    /// At what part of the way to these memories the first bond reaches its strength if loads grow in proportion; above 1: none.
+    /// The part of the way to these memories at which the first bond reaches its strength, if loads grow in proportion. Above 1
+    /// none does.
     double first_to_break(const std::vector<ContactMemory>& memory) const;
     std::vector<ContactMemory> memories() const;
 

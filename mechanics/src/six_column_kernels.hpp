@@ -28,7 +28,7 @@ void multiply_row(const double* block, const std::ptrdiff_t* column, std::size_t
 /// Solves with the rows of L that the supernode holds: `own` are its rows of the right side, `all` those of the whole matrix.
 void solve_forward(const SupernodeValues& node, PaddedRow* own, PaddedRow* all);
 
-/// The same with L^T.
+/// Solves with the rows of L^T that the supernode holds.
 void solve_backward(const SupernodeValues& node, PaddedRow* own, const PaddedRow* all);
 
 }  // namespace coagula::mechanics

@@ -100,7 +100,7 @@ public:
 
     /// Deformation of a bond under the six unit strains at the unknowns `motion`.
     static Deformations<6> deformation(const LinearBond& bond, const Loads& motion);
-    /// The same when all particles follow the strain and none turns.
+    /// Deformation of a bond under the six unit strains when all particles follow the strain and none turns.
     static Deformations<6> affine_deformations(const LinearBond& bond);
 
     /// Adds stiffness to the spin of every particle with just two bonds about the line through its two contact points where nothing

@@ -19,8 +19,8 @@ public:
     /// Change of all forces and moments per strain when all particles follow it affinely.
     Motion strain_load() const;
 
-    /// Which contacts lose the directions in which their symmetric part has negative stiffness, by slip or compression (projected
-    /// Newton: Teran, Sifakis, Irving, Fedkiw, Symp. Computer Animation 2005, 181).
+    /// The contacts from which the directions of negative stiffness are taken out, so that the symmetric part is convex (projected
+    /// Newton: Teran, Sifakis, Irving, Fedkiw, Symp. Computer Animation 2005, 181). Slip and compression cause such directions.
     enum class Convex { contacts_without_bond, all };
 
     /// Symmetric part, upper triangle.

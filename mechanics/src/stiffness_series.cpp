@@ -27,7 +27,7 @@ struct Moduli {
     double deviation;
 };
 
-/// By the method asked for, of the six orientations.
+/// Shear modulus by the method that is asked for, as mean over the six orientations and standard deviation.
 Moduli find_moduli(const Packing& packing, const ContactNetwork& bonds, const StiffnessSeriesOptions& options,
                    const LinearResponse& linear, const ContactModel& springs, const Progress& progress) {
     if (options.method == SeriesMethod::quasistatic) {

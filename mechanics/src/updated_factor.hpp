@@ -31,7 +31,7 @@ public:
     Index rank() const { return rank_; }
     /// Whether no more contacts can be taken in.
     bool is_full() const { return full_; }
-    /// Of the neighbours, see ShearedNetwork::generation.
+    /// Generation of the neighbours for which the contacts of the factor are numbered (ShearedNetwork::generation).
     Index generation() const { return generation_; }
     bool is_convex() const { return convex_; }
     Index factorisations() const { return factorisations_; }

@@ -34,7 +34,7 @@ std::vector<std::string_view> split_fields(std::string_view line, char separator
     return fields;
 }
 
-/// The same of a header: a unit in brackets belongs to the word before it, "x [um] y [um]".
+/// The fields of a header. Where blanks separate, a unit in brackets belongs to the word before it: "x [um] y [um]".
 std::vector<std::string_view> split_header(std::string_view line, char separator) {
     std::vector<std::string_view> fields;
     for (const std::string_view field : split_fields(line, separator)) {

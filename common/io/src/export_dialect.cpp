@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t longest_title = 1000;  ///< every table of a result carries it, and every line of a group
 
-/// Of the line that says when a measurement began: TRIOS, RheoPlus in English and Japanese, RheoWin.
+/// Keys of the line that says when a measurement began, in TRIOS, RheoPlus (English and Japanese) and RheoWin.
 constexpr std::array<std::string_view, 5> date_keys = {"run date", "measuring date/time", "測定日/時間", "date / time / version",
                                                        "date"};
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From the raw columns of a file to checked packings.
+// Turns the raw columns of a file into packings and checks them.
 #include <algorithm>
 #include <array>
 #include <numeric>

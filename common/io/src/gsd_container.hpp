@@ -23,7 +23,7 @@ public:
 
     /// The numbers of a chunk; empty where the frame has none of that name.
     std::vector<double> numbers(std::uint64_t frame, const std::string& name) const;
-    /// The same, or those of the first frame where this one has none.
+    /// The numbers of a chunk, or those of the first frame where this one has none.
     std::vector<double> numbers_or_first(std::uint64_t frame, const std::string& name) const;
     /// rows x columns finite numbers. What a frame does not have it takes from the first one, if that has as many; otherwise the
     /// result is empty. Throws InputError for another size and for numbers that are not finite.

@@ -101,7 +101,7 @@ std::optional<double> diameter_of_shape(const GsdFile& file, const std::string& 
     fail_by_shape(file, type, kind);
 }
 
-/// Of the state of a Monte Carlo simulation.
+/// The diameter that the state of a Monte Carlo simulation gives to a type.
 std::optional<double> diameter_of_state(const GsdFile& file, const Types& types, std::size_t type) {
     if (type < types.sphere_radii.size()) {
         return 2 * types.sphere_radii[type];

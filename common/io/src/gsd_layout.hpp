@@ -37,7 +37,7 @@ struct Entry {
 };
 static_assert(sizeof(Entry) == 32);
 
-/// Of the numbers of a chunk.
+/// Type of the numbers of a chunk.
 enum class Type : std::uint8_t { u8 = 1, u16, u32, u64, i8, i16, i32, i64, f32, f64 };
 
 }  // namespace coagula::io::gsd

@@ -24,7 +24,7 @@ struct Element {
 };
 Element find_element(const File& file, const std::string& object);
 
-/// Such as "[3][5]".
+/// A shape as text, such as "[3][5]".
 std::string shape_text(const Shape& shape);
 void require_shape(const File& file, const std::string& object, const Shape& expected);
 
@@ -33,14 +33,14 @@ void require_shape(const File& file, const std::string& object, const Shape& exp
 std::vector<double> read_lengths(const File& file, const std::string& object, const Shape& slice, bool all_frames = false,
                                  const std::optional<double>& length_unit = {});
 
-/// From the shape of the positions. Throws InputError for more than 2^31 - 1 and for none.
+/// Number of particles, from the shape of the positions. Throws InputError for more than 2^31 - 1 and for none.
 std::size_t number_of_particles(const File& file, const std::string& position);
 
-/// From the attribute `boundary` of a box.
+/// Whether a box is periodic along each edge, by its attribute `boundary`.
 std::array<bool, 3> read_periodicity(const File& file, const std::string& box);
 
-/// Columns are the edges [m], from three lengths or from a matrix with an edge in each row: of the last frame, or of each; of a box
-/// that does not depend on time a single one.
+/// The edges of the box as columns [m], from three lengths or from a matrix with an edge in each row. There is one matrix for the
+/// last frame, or one for each frame. A box that does not depend on time has a single one.
 std::vector<Eigen::Matrix3d> read_edges(const File& file, const std::string& edges, bool all_frames = false,
                                         const std::optional<double>& length_unit = {});
 

@@ -33,7 +33,7 @@ herr_t append_name(hid_t /*group*/, const char* name, const H5L_info_t* /*info*/
     return 0;
 }
 
-/// By HDF5 in another program, which writes there.
+/// Whether another program has the file open for writing, which HDF5 locks.
 bool is_locked(const std::string& path) {
     const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     const bool locked = descriptor >= 0 && flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;

@@ -154,7 +154,7 @@ public:
     void remove(const std::string& object);
     /// Everything in `source`, or in a group of it: groups, links, references and attributes of the root.
     void copy_all_from(const File& source, const std::string& group = "/");
-    /// The same as a group of this file, where nothing has its name.
+    /// Copies a group of `source` into this file, under a name that nothing has.
     void copy_group_from(const File& source, const std::string& group, const std::string& name);
     std::vector<std::string> attribute_names(const std::string& object) const;
 

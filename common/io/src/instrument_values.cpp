@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Reads what the metadata of an export say about the tool: geometry, radii, gap, angle, inertia and compliance.
 #include <coagula/io/measured_file.hpp>
 #include <coagula/io/units.hpp>
 

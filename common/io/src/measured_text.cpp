@@ -85,7 +85,7 @@ std::size_t field_end(std::string_view line, char separator, std::size_t begin) 
     return std::min(line.find(separator, std::min(at, line.size())), line.size());
 }
 
-/// Without blanks and quotes around it.
+/// A field without the blanks and quotes around it.
 std::string bare_field(std::string_view field) {
     field = trim(field);
     if (field.size() < 2 || field.front() != '"' || field.back() != '"') {

@@ -92,7 +92,7 @@ private:
     std::size_t missing_ = 0;
 };
 
-/// By all cells of the lines that have several.
+/// Whether numbers of the file have decimal commas. All cells of lines with more than one cell have a vote.
 bool has_decimal_comma(const MeasuredText& text, char separator);
 
 }  // namespace coagula::io

@@ -12,7 +12,7 @@ namespace coagula::io {
 
 namespace {
 
-/// One number of the first frame, `otherwise` without it.
+/// A single number of the first frame; `otherwise` where the frame does not have it.
 double number_of_file(const GsdFile& file, const std::string& name, double otherwise) {
     const std::vector<double> found = file.numbers(0, name);
     return found.size() == 1 ? found[0] : otherwise;

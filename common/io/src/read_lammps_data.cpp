@@ -63,7 +63,7 @@ void read_header_line(const LineReader& file, Header& header) {
     }
 }
 
-/// Up to the line "Atoms"; sections before it are passed over.
+/// Reads up to the line "Atoms". Sections before it are passed over.
 Header read_header(LineReader& file) {
     Header header;
     if (file.next()) {

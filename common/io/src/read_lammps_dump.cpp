@@ -17,7 +17,7 @@ struct FrameHeader {
     std::optional<Cell> box;  // in the units of the file
 };
 
-/// Which words of an atom's line are what.
+/// Places of the quantities among the words of an atom's line.
 struct Columns {
     std::array<std::size_t, 3> position{};
     std::optional<std::size_t> number;

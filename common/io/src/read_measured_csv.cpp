@@ -45,7 +45,8 @@ bool holds_numbers_only(const Cells& cells) {
            std::all_of(cells.begin(), cells.end(), [](const std::string& cell) { return cell.empty() || looks_like_number(cell); });
 }
 
-/// At least every other cell is a number, and no other a heading: texts such as a status may stand in a row.
+/// Whether the cells are a row of numbers: at least half of them are numbers, and none is a heading. Texts such as a status may
+/// stand in a row.
 bool is_row(const Cells& cells) {
     const auto numbers = static_cast<std::size_t>(std::count_if(cells.begin(), cells.end(), looks_like_number));
     return numbers > 0 && 2 * numbers >= filled(cells) && std::none_of(cells.begin(), cells.end(), [](const std::string& cell) {
@@ -85,7 +86,7 @@ char separator_of(const MeasuredText& text) {
     return ',';
 }
 
-/// After a blank line: a title, or headings of a further table.
+/// Whether a line after a blank one is a title, or has the headings of a further table.
 bool begins_table(const FilledLine& line, std::size_t width) {
     return line.after_blank && ((line.cells.size() != width && !holds_numbers_only(line.cells)) || !has_number(line.cells));
 }

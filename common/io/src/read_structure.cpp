@@ -36,7 +36,7 @@ Cell read_cell(const File& file, const std::string& box) {
     return Cell::of_edges(corner, edges, periodic);
 }
 
-/// Also the names other programs use.
+/// The data set of the radii, by the name of coagula or by that of other programs.
 std::string radius_object(const File& file, const std::string& group) {
     for (const char* name : {"/radius", "/radii"}) {
         if (file.has(group + name)) {

@@ -23,7 +23,7 @@ const Json& member(const Json& object, const char* key) {
     return object.is_object() && object.contains(key) ? object[key] : none;
 }
 
-/// For loops over what may be missing.
+/// The value itself if it is an object, else an empty one, so that a loop may run over what is missing.
 const Json& members(const Json& value) {
     static const Json none = Json::object();
     return value.is_object() ? value : none;

@@ -92,7 +92,7 @@ KnownHeading listed(std::string_view heading) {
     return found == places.end() ? KnownHeading{} : KnownHeading{std::string(heading_list[found->second].second), found->second};
 }
 
-/// Without what parts a word from its symbol.
+/// A part of a heading without the marks and brackets that separate a word from its symbol.
 std::string_view bare_part(std::string_view part) {
     constexpr std::string_view marks = " ,;:=-/";
     part.remove_prefix(std::min(part.find_first_not_of(marks), part.size()));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Four or eight bonds in the lanes of a vector register (GCC and clang on x86-64). To be included by a translation unit that is
-// compiled for the instructions: the lanes have internal linkage, so that none of its functions serves another processor.
+// Arithmetic on four numbers at a time in the registers of AVX2 (GCC and clang on x86-64), by which bond_loop.hpp computes four
+// bonds at once. Only a source that is compiled for AVX2 may include it: all names have internal linkage, so that no function of it
+// runs on another processor.
 #pragma once
 
 #include <coagula/common/dem/bond_loop.hpp>

@@ -165,7 +165,7 @@ void NeighbourSearch::search_row(const Seeker& seeker, int side, const Place& y,
     int count = 1;
     for (int box = seeker.home[0] - seeker.reach; box <= last; box += count) {
         const Place& x = place_along(0, box);
-        // In the own row box by box, since the side changes there, otherwise as far as the period goes.
+        // The own row is searched box by box, because the side changes there; another row as far as the period goes.
         count = side == 0 ? 1 : std::min(last - box + 1, boxes_[0] - x.box);
         if (x.exists) {
             search_boxes(seeker, row + static_cast<std::size_t>(x.box), static_cast<std::size_t>(count),

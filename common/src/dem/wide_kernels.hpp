@@ -5,7 +5,7 @@
 
 namespace coagula::dem::detail {
 
-/// For processors with AVX2; exists where COAGULA_WIDE_KERNELS is defined.
+/// The kernels for processors with AVX2. They exist where COAGULA_WIDE_KERNELS is defined.
 extern const Kernels wide_kernels;
 
 }  // namespace coagula::dem::detail

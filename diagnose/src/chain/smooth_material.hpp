@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A material without a model: any smooth G* of frequency and strain, and of its age.
+// A material of which no structures are known: its G* may be any smooth function of frequency, strain and age.
 #pragma once
 
 #include "observables/observations.hpp"
@@ -11,23 +11,29 @@
 
 namespace coagula::diagnose {
 
-/// G* = sum of functions with independent normal coefficients of zero mean. Along the frequency Maxwell elements, three a decade of
-/// the frequencies measured, a spring and a dashpot, so that G' and G'' belong to one relaxation spectrum (Ferry 1980, ch. 3); each
-/// as large as |G*| at its frequency. Along the logarithms of the strain that was set (not one that follows a stress) and of the
-/// age bumps of each modulus, of the middle size of |G*|, and of the viscosity along that of the shear rate, of its size there; as
-/// many a decade. The common size of the coefficients is known from a few degrees of freedom only.
+/// G* is a sum of functions whose coefficients are independent normal numbers of zero mean. There are three functions for each
+/// decade that was measured.
+///
+/// Along the frequency the functions are a spring, a dashpot and Maxwell elements, so that G' and G'' belong to one relaxation
+/// spectrum (Ferry 1980, ch. 3). Each of them is as large as |G*| at its frequency. Along the logarithm of the strain they are
+/// bumps of each modulus, as large as the median of |G*|, and so they are along the logarithm of the age. The strain counts where
+/// it was set, not where it follows from a stress. In steady flow they are bumps of the viscosity along the logarithm of the shear
+/// rate, as large as the viscosity there.
+///
+/// The common size of the coefficients is known from a few degrees of freedom only.
 class SmoothMaterial {
 public:
     /// @param ages whether it varies with its age, too.
     SmoothMaterial(const std::vector<Observation>& observations, bool ages);
 
-    /// Moduli as the coefficients change them: without these there are none.
+    /// The moduli as a linear function of the coefficients. They are zero where all coefficients are.
     UncertainModuli moduli() const;
 
-    /// Where a fit begins: what meets the data best if the instrument shows the material as it is.
+    /// Coefficients at which a fit begins: those that meet the data best if the instrument shows the material as it is.
     const Eigen::VectorXd& start() const { return start_; }
 
-    /// The coefficients that meet the data best where the instrument shows `seen` at some of them, and so much more by one of each.
+    /// The coefficients that meet the data best.
+    /// @param seen what the instrument shows at `coefficients`. @param changes how that grows with each coefficient, in columns.
     Eigen::VectorXd best(const Eigen::VectorXd& coefficients, const Eigen::VectorXd& seen, const Eigen::MatrixXd& changes) const;
 
 private:

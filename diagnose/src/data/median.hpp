@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The middle one of some numbers.
+// Median of a list of numbers.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace coagula::diagnose {
 
-/// The upper one of two; 0 of none.
+/// The middle number in order of size. Of an even number of values it is the upper of the two in the middle; of none it is 0.
 inline double median(std::vector<double> values) {
     if (values.empty()) {
         return 0;

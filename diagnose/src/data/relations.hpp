@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Columns of one table that repeat each other.
+// Relations that must hold between the columns of a table, such as that of stress, strain and modulus. The check of data asks in
+// which rows they fail, and which cell is wrong there.
 #pragma once
 
 #include <coagula/diagnose/check_data.hpp>
@@ -10,7 +11,7 @@
 
 namespace coagula::diagnose {
 
-/// A quantity that two ways to compute it must give alike.
+/// A quantity that can be computed from the columns in two ways, which must agree.
 struct Relation {
     /// The values of `columns` in a row, in their order.
     using Cells = std::vector<double>;

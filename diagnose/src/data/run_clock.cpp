@@ -35,7 +35,8 @@ std::pair<double, double> first_and_last(const Measurement& table) {
     return {first, last};
 }
 
-/// A clock of its own shows about a step of the table in the first row; this one shows more, and no time that the run before shows.
+/// Whether the times of a table go on from those of the run before it. A clock of its own would show about one step of the table in
+/// the first row; this one shows more, and no time that the run before it shows.
 bool runs_on(const Measurement& before, const Measurement& table) {
     const Column* time = find_column(table, "time");
     if (find_column(before, "time") == nullptr || time == nullptr || table.rows() < 2) {
@@ -122,7 +123,7 @@ bool share_clock(const Measurement& a, const Measurement& b) {
     return a.shared_clock.value_or(false) && b.shared_clock.value_or(false);
 }
 
-/// In the order in which they were made: by their starts where all have one, else as they say.
+/// Puts the runs into the order in which they were made: by their starts where all have one, otherwise by `run_order`.
 void put_in_order(const Experiment& experiment, std::vector<std::size_t>& runs) {
     const auto& tables = experiment.measurements;
     const bool dated = std::all_of(runs.begin(), runs.end(), [&](std::size_t one) { return std::isfinite(tables[one].start); });

@@ -46,7 +46,7 @@ DragScatter drag_scatter(const ArrayXd& drags, double particles, const MatrixXd&
     const ArrayXd scatter = stated_scatter(drags, particles);
     const MatrixXd alike = correlation(drags);
     const auto nodes = static_cast<double>(drags.size());
-    // Of a mean square over correlated nodes (Satterthwaite).
+    // Degrees of freedom of a mean square over correlated nodes (Satterthwaite).
     const double independent = nodes * nodes / alike.squaredNorm();
     const double degrees = independent * static_cast<double>(logarithms.cols() - means);
     const double mean_square = (logarithms.array().colwise() / scatter).square().sum() / nodes;

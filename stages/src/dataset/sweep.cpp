@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The sweep file as structures.
+// Reads a sweep file and checks every option in it. The result has one row of options for each structure of the set.
 #include "signature.hpp"
 #include "sweep_section.hpp"
 

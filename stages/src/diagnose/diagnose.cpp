@@ -67,7 +67,7 @@ bool has_group(const diagnose::Measurement& table, double group) {
                              : std::find(column->values.begin(), column->values.end(), group) != column->values.end();
 }
 
-/// Those of the file, and where the structures are not those of the sample.
+/// The notes of the experiment file, and notes where the structures differ from the sample.
 std::vector<std::string> notes_on(const Experiment& experiment, double radius, std::vector<std::string> notes) {
     constexpr double noticeable = 0.05;
     const std::vector<double>& fractions = experiment.structure_volume_fractions;

@@ -57,7 +57,7 @@ std::string first_words(const std::string& path) {
     return "";
 }
 
-/// In a process group of its own: Ctrl-C reaches coagula alone, which then ends it.
+/// Starts the program in a process group of its own, so that Ctrl-C reaches coagula alone, which then ends it.
 pid_t spawn(const Engine& engine, std::vector<std::string> words, int input, const std::string& output) {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);

@@ -32,7 +32,7 @@ struct PointSprings {
 
 constexpr std::size_t kinds_of_points = 3;
 
-/// At the contact, along its normal, and across it.
+/// The springs of a contact: one at the contact point, two along its normal, and four across it.
 std::array<PointSprings, kinds_of_points> point_springs(const ContactRatios& ratios, const Eigen::Vector3d& normal) {
     const Eigen::Vector3d across = moment_arm * normal.unitOrthogonal();
     const Eigen::Vector3d other = normal.cross(across);

@@ -52,7 +52,7 @@ std::string lammps_settle(const LammpsBodies& bodies, double rate, std::int64_t 
 /// Time between two steps.
 inline constexpr double lammps_settling_step = 1.2;
 
-/// That file holds the state at rest.
+/// The state at rest, as the file of lammps_settle() holds it.
 struct LammpsRest {
     double energy = 0;       ///< of all springs
     Eigen::Matrix3d stress;  ///< tension is positive; in the axes of LAMMPS

@@ -57,7 +57,7 @@ const Format& format_of(const std::string& path) {
     throw InputError(path + " has no ending that names a format: " + list_of(known));
 }
 
-/// By its name, or by the ending of the file to write.
+/// The format that --format names, or that the ending of the output names.
 const Format& chosen_format(const Arguments& arguments) {
     const std::string name = arguments.text("format", "");
     if (!name.empty()) {

@@ -64,7 +64,8 @@ BrownianOptions brownian_options(const Arguments& arguments) {
 const std::vector<std::string> of_suspension = {"particles",         "volume-fraction",         "radius",
                                                 "size-distribution", "equilibration-potential", "equilibration-time"};
 
-/// Of Python's `start` the table of options knows nothing. A packing that is there has no double layer but that of the run.
+/// Refuses options that nothing reads where a run goes on from a packing. The table of options cannot do it, because it does not
+/// know Python's `start`. A given packing has no double layer but that of the run.
 void check_beside_start(const Arguments& arguments) {
     std::vector<std::string> not_read = of_suspension;
     if (arguments.has("potential-table")) {
@@ -224,7 +225,7 @@ void check_end(const Arguments& arguments, const BrownianOptions& options) {
     }
 }
 
-/// Of a run that has ended. @param first what it began with.
+/// The structure and the findings of a run that has ended. @param first the packing that it began with.
 Generated described(const BrownianRun& run, const Packing& first, const PairPotential& potential, const BrownianOptions& options,
                     generators::BrownianRun made, const Progress& progress) {
     Findings found{

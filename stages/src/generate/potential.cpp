@@ -15,9 +15,9 @@ namespace {
 
 using namespace generators;
 
-// Of the attraction by a polymer, over the radius of the particles: shorter ones are below the roughness of any surface; polymers
-// larger than 0.154 of the particles attract more than two at a time (Dijkstra, Brader, Evans, J. Phys.: Condens. Matter 11 (1999)
-// 10079), and the well is no longer narrow beside the particles.
+// Range of the attraction by a polymer, over the radius of the particles. Shorter ranges are below the roughness of any surface.
+// Polymers larger than 0.154 of the particles attract more than two at a time (Dijkstra, Brader, Evans, J. Phys.: Condens. Matter
+// 11 (1999) 10079), and the well is no longer narrow beside the particles.
 constexpr double smallest_range = 0.01;
 constexpr double largest_range = 0.5;
 

@@ -29,7 +29,7 @@ SizeDistribution parse_spread(const Arguments& arguments, SizeKind kind, const s
     return sizes;
 }
 
-/// Of the particles a share `fraction`, on any scale, has this radius.
+/// Reads a table of radii [m] and of the share of the particles that has each. The shares may be on any scale.
 SizeDistribution read_size_table(const std::string& path) {
     const auto columns =
         io::read_table(path, {{.name = "radius", .unit = "m", .low = physical::length.low, .high = physical::length.high},

@@ -17,7 +17,7 @@ bool is_same_file(const std::string& one, const std::string& other) {
     return fs::equivalent(one, other, missing);
 }
 
-/// Of files that need not be there yet.
+/// Whether two paths name one file, which need not be there yet.
 bool is_same_place(const std::string& one, const std::string& other) {
     std::error_code missing;
     return is_same_file(one, other) || fs::weakly_canonical(one, missing) == fs::weakly_canonical(other, missing);

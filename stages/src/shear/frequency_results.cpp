@@ -33,7 +33,7 @@ double imaginary_part(const Complex& value) {
     return value.imag();
 }
 
-/// One number of each point.
+/// A vector with one number for each point of the sweep.
 template <class Value>
 Eigen::VectorXd over_points(const FrequencyResponse& response, const Value& value) {
     Eigen::VectorXd values(static_cast<Index>(response.points.size()));

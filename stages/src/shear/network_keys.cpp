@@ -31,7 +31,7 @@ std::optional<mechanics::LinearResponse> response_as_found(const Packing& packin
     }
 }
 
-/// With springs of 1 N/m, for the counts that do not depend on the stiffness.
+/// The linear response with springs of 1 N/m, of which only the counts are used: they do not depend on the stiffness.
 mechanics::LinearResponse response_for_counts(const Packing& packing, const ContactNetwork& bonds, const Progress& progress) {
     mechanics::LinearOptions options;
     options.normal_stiffness = 1;

@@ -31,7 +31,7 @@ bool has_modulus(const mechanics::LinearResponse& linear, const mechanics::Shear
 /// Where it has none in some plane: why, as a text of the results and a line of the table.
 void append_reason(Findings& found, const Packing& packing, const ContactNetwork& bonds, const mechanics::LinearResponse& linear);
 
-/// The same without a linear response.
+/// The same where no linear response is known, which is then computed.
 void append_reason(Findings& found, const Packing& packing, const ContactNetwork& bonds, const Progress& progress);
 
 /// Stiffness of a contact as found, mean over the bonds.

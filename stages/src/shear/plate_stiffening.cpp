@@ -25,7 +25,7 @@ std::vector<mechanics::ShearOrientation> orientations_of(const mechanics::Rheome
     return orientations;
 }
 
-/// Without moduli where there is no linear response.
+/// Stiffening by the plates for each orientation. It has no moduli where there is no linear response.
 std::vector<PlateStiffening> stiffening_of(const Packing& packing, const ContactNetwork& bonds,
                                            const std::optional<mechanics::LinearResponse>& linear,
                                            const std::vector<mechanics::ShearOrientation>& orientations, double plate_layers,

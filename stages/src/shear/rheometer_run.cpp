@@ -23,7 +23,8 @@ namespace coagula::stages {
 
 namespace {
 
-/// Of all orientations, with the oscillations counted; the runs name their orientation.
+/// Progress of the test over all orientations, with the oscillations counted. The runs tell theirs by the name of their
+/// orientation.
 Progress whole_test(const Progress& progress, const std::vector<mechanics::ShearOrientation>& orientations, int oscillations) {
     return Progress([&progress, orientations, oscillations, reached = 0.0, said = std::string("coming to rest")](
                         std::string_view stage, double fraction, std::string_view /*remark*/) mutable {

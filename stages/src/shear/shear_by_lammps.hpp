@@ -13,7 +13,7 @@ namespace coagula::stages {
 /// Throws InputError for options and parameters of the contact that LAMMPS has nothing for.
 void check_lammps_can_shear(const Arguments& arguments, const ContactModel& model);
 
-/// One plane, in which a shear and its transpose are the same strain.
+/// The shear of one plane. A shear and its transpose are the same strain.
 struct LammpsShear {
     mechanics::ShearOrientation plane;
     double modulus = 0;         ///< from the energy at rest [Pa]

@@ -27,7 +27,7 @@ struct BondOrder {
 /// Throws std::invalid_argument for an open packing without inner particles.
 BondOrder measure_bond_order(const Packing& packing);
 
-/// The same from faces that are known (voronoi_cells.hpp). @param inner N flags (inner_particles.hpp).
+/// Bond order from faces that are known already (voronoi_cells.hpp). @param inner N flags (inner_particles.hpp).
 BondOrder measure_bond_order(const Packing& packing, const VoronoiFaces& faces, const std::vector<bool>& inner);
 
 }  // namespace coagula::characterize

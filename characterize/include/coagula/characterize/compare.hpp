@@ -48,9 +48,9 @@ struct HeterogeneityComparison {
     std::optional<std::size_t> more_heterogeneous() const;
 };
 
-/// All lengths are taken in units of each structure's mean radius, so that these may differ. Not fair is a comparison of structures
-/// that differ in volume fraction by more than 1 %, in the relative spread of their radii by more than 0.01, in the number of
-/// particles by more than a factor of 2, or of which only one has a free surface.
+/// All lengths are taken in units of each structure's mean radius, so that these may differ. A comparison is not fair where the
+/// structures differ in volume fraction by more than 1 %, in the relative spread of their radii by more than 0.01, or in the number
+/// of particles by more than a factor of 2, and where only one of them has a free surface.
 /// @param names of the structures, for the sentence of std::invalid_argument if pores or Voronoi cells cannot be measured.
 HeterogeneityComparison compare_heterogeneity(const MeasureInput& first, const MeasureInput& second,
                                               const std::array<std::string, 2>& names = {"the first structure",

@@ -14,10 +14,10 @@ namespace coagula::diagnose {
 /// Longest time from the first to the last run on a sample [s].
 inline constexpr double longest_session = 366 * 86400.0;
 
-/// Before the first run on a sample.
+/// Stands for the run before the first one on a sample.
 inline constexpr std::size_t no_run = std::numeric_limits<std::size_t>::max();
 
-/// On the clock of the sample, which begins with its first run, or with the rest before that where one is stated.
+/// When a run took place. The clock of a sample begins with its first run, or with the rest before that where one is stated.
 struct RunTime {
     double origin = 0;            ///< of the times of the table [s]
     double sheared = 0;           ///< end of the last shear that destroyed the structure, else 0 [s]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// By how much the plates of a rheometer stiffen the sample between them.
+// How much the plates of a rheometer stiffen the sample between them.
 #pragma once
 
 #include <coagula/common/contact_network.hpp>

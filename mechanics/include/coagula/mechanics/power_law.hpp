@@ -42,8 +42,8 @@ struct PowerLawFit {
     PowerLaw law;
     PowerLawMinimum minimum = PowerLawMinimum::inside;
     Index degrees_of_freedom = 0;  ///< structures less three parameters
-    /// From the curvature of the sum of squares at its minimum; unset where that lies at an end or nothing tells the error of the
-    /// moduli (three structures without standard errors).
+    /// Standard errors, from the curvature of the sum of squares at its minimum. They are unset where the minimum lies at an end,
+    /// and where nothing tells the error of the moduli (three structures without standard errors).
     double a0_stderr = unset;
     double beta_stderr = unset;
     double log_c_stderr = unset;

@@ -101,7 +101,7 @@ struct RheometerResult {
     double mass_scaling = unset;     ///< mass of a particle in the run over its real mass
     double inertial_number = unset;  ///< largest strain rate x sqrt(mass / normal contact stiffness)
 
-    /// Of the last oscillation, mean over the orientations and standard deviation [Pa].
+    /// Moduli of the last oscillation, as mean over the orientations and standard deviation [Pa].
     double storage_modulus() const;
     double storage_deviation() const;
     double loss_modulus() const;

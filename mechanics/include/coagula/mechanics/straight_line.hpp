@@ -20,8 +20,8 @@ struct StraightLine {
 /// Throws std::invalid_argument for fewer than two points, values that are not finite or equal x.
 StraightLine fit_line(const Eigen::VectorXd& x, const Eigen::VectorXd& y);
 
-/// Through the origin; intercept 0 without an error. Throws std::invalid_argument for no point, values that are not finite or x
-/// that are all 0.
+/// Fits a line through the origin: its intercept is 0 and has no error. Throws std::invalid_argument for no point, values that are
+/// not finite or x that are all 0.
 StraightLine fit_line_through_origin(const Eigen::VectorXd& x, const Eigen::VectorXd& y);
 
 }  // namespace coagula::mechanics

@@ -71,7 +71,7 @@ public:
 
     /// The same call with another value of a count.
     Arguments with_count(const std::string& name, std::int64_t value) const;
-    /// Likewise with a quantity.
+    /// The same call with another value of a quantity.
     Arguments with_quantity(const std::string& name, double value) const;
 
     const std::string& verb() const { return verb_; }

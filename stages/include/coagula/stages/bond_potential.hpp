@@ -27,7 +27,7 @@ Findings bond_findings(const generators::PairPotential& potential, double radius
 
 /// @param results of a generator, or of the file; empty where they say nothing about bonds.
 std::optional<BondPotential> bond_potential_in(const Results& results);
-/// The same of a file.
+/// The potential of the bonds that a file states.
 std::optional<BondPotential> bond_potential_of(const std::string& path);
 
 }  // namespace coagula::stages

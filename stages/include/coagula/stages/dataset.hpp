@@ -39,7 +39,7 @@ struct Sweep {
 
 /// Reads a sweep file and checks every option of every structure. Throws InputError with a sentence that names file, key and rule.
 Sweep read_sweep(const std::string& path);
-/// The same of a text. @param path the file for messages, and the folder from which files are named.
+/// Reads a sweep from its text. @param path names the file in messages; files in the sweep are named from its folder.
 Sweep parse_sweep(const std::string& text, const std::string& path);
 
 struct SetRun {

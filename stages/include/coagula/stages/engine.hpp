@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which program does the work: this one or another.
+// The program that does the work: coagula itself or another one.
 #pragma once
 
 #include <coagula/stages/arguments.hpp>

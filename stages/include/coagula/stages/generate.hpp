@@ -60,7 +60,7 @@ struct PairForces {
     std::optional<double> yukawa_energy;            ///< at contact [J]
     double yukawa_length = unset;                   ///< [m]
     std::optional<double> contact_stiffness;        ///< [N/m]; chosen by firm_contact when empty
-    std::optional<double> equilibrium_gap;          ///< [m]; likewise
+    std::optional<double> equilibrium_gap;          ///< [m]; chosen by firm_contact when empty
 };
 
 PairForces pair_forces(const Arguments& arguments);

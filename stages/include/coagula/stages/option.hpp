@@ -17,7 +17,7 @@ struct Range {
     bool ends_included = true;
 
     bool holds(double value) const;
-    /// Such as "> 0", "> 0 and < 1", "3 .. 100"; empty when everything is allowed.
+    /// The range as text, such as "> 0", "> 0 and < 1", "3 .. 100". It is empty when everything is allowed.
     std::string text() const;
 };
 Range at_least(double low);
@@ -62,7 +62,7 @@ struct Option {
     bool required = false;
     char letter = 0;         ///< short name
     File file = File::none;  ///< whether its text names a file, and what becomes of that
-    /// Of a length: a number above this without a unit is more likely a unit forgotten than what is meant, and refused.
+    /// The largest length without a unit. A larger number is refused, because its unit was more likely forgotten than metres meant.
     double largest_bare = std::numeric_limits<double>::infinity();
     std::vector<Condition> conditions = {};  ///< under which the option is read; otherwise it is refused
 };
