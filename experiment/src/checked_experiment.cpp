@@ -3,7 +3,6 @@
 #include <coagula/diagnose/outliers.hpp>
 #include <coagula/diagnose/replicate_groups.hpp>
 #include <coagula/diagnose/run_clock.hpp>
-#include <coagula/diagnose/stated_errors.hpp>
 #include <coagula/diagnose/stress_control.hpp>
 #include <coagula/diagnose/waveform.hpp>
 #include <coagula/experiment/checked_experiment.hpp>
@@ -133,12 +132,15 @@ void drop_assumed_noise(CheckedExperiment& found) {
 CheckedExperiment check_experiment(const std::string& path, diagnose::DiagnosisOptions options) {
     CheckedExperiment found{.file = read_experiment(path), .options = std::move(options)};
     diagnose::Experiment& experiment = found.file.experiment;
-    const diagnose::NoiseOptions& noise = found.file.noise;
+    const diagnose::StatedNoise& noise = found.file.noise;
     found.tables = check_tables(found.file);
     std::transform(found.tables.begin(), found.tables.end(), experiment.measurements.begin(),
                    [](const diagnose::CheckedMeasurement& checked) { return checked.measurement; });
     found.conversions = diagnose::convert_step_tests(experiment);
+    diagnose::ErrorSpec& errors = found.options.errors;
+    errors.tables.resize(experiment.measurements.size());
     for (const diagnose::StepConversion& conversion : found.conversions) {
+        errors.tables[conversion.measurement] = conversion.errors;
         found.file.notes.push_back(conversion.sentence);
     }
     note_liquids(found.file);
@@ -155,9 +157,8 @@ CheckedExperiment check_experiment(const std::string& path, diagnose::DiagnosisO
     found.noise = diagnose::noise_of_tables(experiment.measurements, noise);
     drop_assumed_noise(found);
     found.options.stated_noise = noise;
-    diagnose::state_errors(experiment, found.noise);
-    diagnose::state_sample_effect(found.noise, noise.stated_sample, found.options.noise);
-    diagnose::reduce_waveforms(experiment, noise.stated_relative, noise.stated_phase);
+    errors = diagnose::estimated_errors(experiment, found.noise, noise, std::move(errors));
+    diagnose::reduce_waveforms(experiment, errors, noise.relative, noise.phase);
     naming(path, [&] {
         const std::vector<std::string> clocks = diagnose::notes_on_clocks(experiment);
         found.file.notes.insert(found.file.notes.end(), clocks.begin(), clocks.end());

@@ -190,25 +190,25 @@ void ExperimentReader::read_noise() {
             target = *value;
         }
     };
-    positive("stated_relative", result_.noise.stated_relative);
-    positive("stated_sample", result_.noise.stated_sample);
+    positive("stated_relative", result_.noise.relative);
+    positive("stated_sample", result_.noise.sample);
     if (const auto value = keys.quantity("stated_floor", "Pa")) {
         if (!(*value >= 0)) {
             keys.fail("stated_floor", "must be >= 0 Pa");
         }
-        result_.noise.stated_floor = *value;
+        result_.noise.floor = *value;
     }
     if (const auto value = keys.quantity("stated_phase", "rad")) {
         if (!(*value > 0 && *value < 1)) {
             keys.fail("stated_phase", "must lie between 0 and 1 rad");
         }
-        result_.noise.stated_phase = *value;
+        result_.noise.phase = *value;
     }
     if (const auto value = keys.quantity("stated_correlation", "1")) {
         if (!(*value >= 0 && *value < 1)) {
             keys.fail("stated_correlation", "must be 0 or more and below 1");
         }
-        result_.noise.stated_correlation = *value;
+        result_.noise.correlation = *value;
     }
     keys.refuse_other_keys();
 }

@@ -41,7 +41,7 @@ std::string lines(const List& list, const Value& value) {
     return text;
 }
 
-void add_tables(Results& results, const diagnose::Experiment& experiment) {
+void add_tables(Results& results, const diagnose::Experiment& experiment, const diagnose::ErrorSpec& errors) {
     for (std::size_t k = 0; k < experiment.measurements.size(); ++k) {
         const diagnose::Measurement& table = experiment.measurements[k];
         const std::string path = group + "data/table_" + std::to_string(k + 1) + "/";
@@ -54,9 +54,11 @@ void add_tables(Results& results, const diagnose::Experiment& experiment) {
             };
             results.push_back(io::vector(path + column.name, vector(column.values), column.unit,
                                          std::string(diagnose::find_quantity(column.name)->meaning) + "; NaN: left out"));
-            if (!column.standard_errors.empty()) {
-                results.push_back(io::vector(path + "standard_error/" + column.name, vector(column.standard_errors), column.unit,
-                                             "standard deviation of the error of a row"));
+            const diagnose::ColumnErrors* estimated = diagnose::find_errors(errors, k, column.name);
+            if (estimated != nullptr || !column.standard_errors.empty()) {
+                results.push_back(io::vector(path + "standard_error/" + column.name,
+                                             vector(estimated != nullptr ? estimated->deviations : column.standard_errors),
+                                             column.unit, "standard deviation of the error of a row"));
             }
         }
         if (!table.left_out.empty()) {
@@ -243,7 +245,7 @@ Results datasets_of(const DiagnosisRecord& record) {
                                "smallest set of causes with 95 % of the posterior, one per line"));
     results.push_back(io::text(group + "certain_causes", lines(found.certain, itself),
                                "causes that every member of that set is or has, one per line"));
-    add_tables(results, record.experiment);
+    add_tables(results, record.experiment, record.errors);
     add_predictions(results, found);
     add_detection(results, found);
     add_causes(results, found);

@@ -237,7 +237,7 @@ Json to_json(const Diagnosis& diagnosis, const std::vector<diagnose::NoiseModel>
                         {"elpd_difference", number(gain.elpd_difference)},
                         {"elpd_ci90", {number(gain.elpd_low), number(gain.elpd_high)}}};
     }
-    json["noise"] = {{"sample", diagnosis.noise.sample}, {"tables", Json::array()}};
+    json["noise"] = {{"sample", diagnosis.sample_deviation}, {"tables", Json::array()}};
     for (const diagnose::NoiseModel& one : noise) {
         json["noise"]["tables"].push_back(noise_json(one));
     }

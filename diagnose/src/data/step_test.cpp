@@ -221,6 +221,18 @@ ErrorLaw law_of(const std::vector<TransformedRow>& rows) {
             .correlation_error = std::hypot(least_deviation, std::sqrt((correlations - mean).square().mean()))};
 }
 
+/// Errors of size and phase of the sweep that stands for a table.
+TableErrors errors_of(MeasurementKind kind, const std::vector<TransformedRow>& rows) {
+    ColumnErrors storage{"storage_modulus", {}, law_of(rows)};
+    ColumnErrors loss{"loss_modulus", {}, law_of(rows)};
+    for (auto row = rows.rbegin(); row != rows.rend(); ++row) {
+        const double size = std::abs(modulus_of(kind, *row));
+        storage.deviations.push_back(row->along * size);
+        loss.deviations.push_back(row->across * size);
+    }
+    return {ErrorSource::reduction, true, {std::move(storage), std::move(loss)}};
+}
+
 /// The sweep that stands for the table. Its time is shared out so that a row has its own over the lowest frequency's as one over
 /// the frequency: that is when the step shows it.
 Measurement sweep_of(const Measurement& table, const std::vector<TransformedRow>& rows, double strain, double last_time) {
@@ -228,19 +240,16 @@ Measurement sweep_of(const Measurement& table, const std::vector<TransformedRow>
     sweep.kind = MeasurementKind::frequency_sweep;
     sweep.columns.clear();
     sweep.left_out.clear();
-    sweep.polar_errors = true;
     Column frequency{"angular_frequency", "rad/s", {}};
     Column time{"time", "s", {}};
-    Column storage{"storage_modulus", "Pa", {}, {}, false, law_of(rows)};
-    Column loss{"loss_modulus", "Pa", {}, {}, false, law_of(rows)};
+    Column storage{"storage_modulus", "Pa", {}};
+    Column loss{"loss_modulus", "Pa", {}};
     for (auto row = rows.rbegin(); row != rows.rend(); ++row) {
         const Complex modulus = modulus_of(table.kind, *row);
         frequency.values.push_back(row->angular_frequency);
         time.values.push_back(last_time * rows.front().angular_frequency / row->angular_frequency);
         storage.values.push_back(modulus.real());
         loss.values.push_back(modulus.imag());
-        storage.standard_errors.push_back(row->along * std::abs(modulus));
-        loss.standard_errors.push_back(row->across * std::abs(modulus));
     }
     sweep.columns = {std::move(frequency), std::move(time), std::move(storage), std::move(loss)};
     if (table.kind != MeasurementKind::start_up && std::isfinite(strain)) {
@@ -289,6 +298,7 @@ StepConversion convert(Measurement& table, std::size_t number) {
                          rows.front().angular_frequency,
                          rows.back().angular_frequency,
                          largest_strain(table, height, response),
+                         errors_of(table.kind, rows),
                          {}};
     found.sentence = sentence_on(table, found, response);
     table = sweep_of(table, rows, found.largest_strain, response.times[response.times.size() - 1]);

@@ -33,33 +33,45 @@ Measurement empty_table(const Measurement& waveform) {
     return table;
 }
 
-void add_row(const Experiment& experiment, const WaveformHarmonics& found, double relative, double phase, Measurement& table) {
-    const auto add = [&](std::size_t column, double value, double error) {
-        table.columns[column].values.push_back(value);
-        if (column > 2) {
-            table.columns[column].standard_errors.push_back(error);
+/// A table of harmonics with the errors of what it shows.
+struct Harmonics {
+    static constexpr std::size_t conditions = 3;  ///< columns, which have no errors
+
+    explicit Harmonics(const Measurement& waveform) : table(empty_table(waveform)) {
+        for (std::size_t column = conditions; column < table.columns.size(); ++column) {
+            errors.columns.push_back({table.columns[column].name});
         }
-    };
-    add(0, found.strain, 0);
-    add(1, found.angular_frequency, 0);
-    const std::size_t row = table.rows() - 1;
-    add(2, unset, 0);
-    const double error = std::hypot(found.error, third_harmonic_error * found.third_harmonic);
-    add(3, found.third_harmonic_storage, error);
-    add(4, found.third_harmonic_loss, error);
-    const auto same = same_oscillation(experiment, table, row);
-    if (same) {
-        table.columns[2].values.back() = cell(experiment.measurements[same->measurement], "time", same->row);
     }
+
+    void add_row(const Experiment& experiment, const WaveformHarmonics& found, double relative, double phase);
+
+    Measurement table;
+    TableErrors errors{.source = ErrorSource::reduction};
+};
+
+void Harmonics::add_row(const Experiment& experiment, const WaveformHarmonics& found, double relative, double phase) {
+    table.columns[0].values.push_back(found.strain);
+    table.columns[1].values.push_back(found.angular_frequency);
+    const auto same = same_oscillation(experiment, table, table.rows() - 1);
+    table.columns[2].values.push_back(same ? cell(experiment.measurements[same->measurement], "time", same->row) : unset);
+    const auto add = [&](std::size_t shown, double value, double error) {
+        table.columns[conditions + shown].values.push_back(value);
+        errors.columns[shown].deviations.push_back(error);
+    };
+    const double error = std::hypot(found.error, third_harmonic_error * found.third_harmonic);
+    add(0, found.third_harmonic_storage, error);
+    add(1, found.third_harmonic_loss, error);
     const double size = std::hypot(found.storage_modulus, found.loss_modulus);
-    add(5, same ? unset : found.storage_modulus, std::hypot(relative * found.storage_modulus, found.error * size));
-    add(6, same ? unset : found.loss_modulus, std::hypot(relative * found.loss_modulus, std::hypot(phase, found.error) * size));
+    add(2, same ? unset : found.storage_modulus, std::hypot(relative * found.storage_modulus, found.error * size));
+    add(3, same ? unset : found.loss_modulus, std::hypot(relative * found.loss_modulus, std::hypot(phase, found.error) * size));
 }
 
-void drop_empty_columns(Measurement& table) {
-    std::erase_if(table.columns, [](const Column& column) {
+/// Drops columns without values.
+void drop_empty_columns(Harmonics& made) {
+    std::erase_if(made.table.columns, [](const Column& column) {
         return std::none_of(column.values.begin(), column.values.end(), [](double value) { return std::isfinite(value); });
     });
+    std::erase_if(made.errors.columns, [&](const ColumnErrors& one) { return find_column(made.table, one.column) == nullptr; });
 }
 
 }  // namespace
@@ -82,8 +94,8 @@ std::optional<SweepRow> same_oscillation(const Experiment& experiment, const Mea
     return std::nullopt;
 }
 
-void reduce_waveforms(Experiment& experiment, double relative, double phase) {
-    std::vector<Measurement> reduced;
+void reduce_waveforms(Experiment& experiment, ErrorSpec& errors, double relative, double phase) {
+    std::vector<Harmonics> reduced;
     for (const Measurement& waveform : experiment.measurements) {
         if (waveform.kind != MeasurementKind::waveform) {
             continue;
@@ -92,17 +104,27 @@ void reduce_waveforms(Experiment& experiment, double relative, double phase) {
         if (!found) {
             throw InputError(waveform.label + ": " + needs_of_harmonics);
         }
-        auto table = std::find_if(reduced.begin(), reduced.end(),
-                                  [&](const auto& one) { return same_run(one, waveform) && measured_alike(one, waveform); });
-        if (table == reduced.end()) {
-            table = reduced.insert(reduced.end(), empty_table(waveform));
+        auto made = std::find_if(reduced.begin(), reduced.end(), [&](const Harmonics& one) {
+            return same_run(one.table, waveform) && measured_alike(one.table, waveform);
+        });
+        if (made == reduced.end()) {
+            made = reduced.insert(reduced.end(), Harmonics(waveform));
         }
-        add_row(experiment, *found, relative, phase, *table);
+        made->add_row(experiment, *found, relative, phase);
     }
+    std::vector<TableErrors> of_others;
+    errors.tables.resize(experiment.measurements.size());
+    for (std::size_t table = 0; table < errors.tables.size(); ++table) {
+        if (experiment.measurements[table].kind != MeasurementKind::waveform) {
+            of_others.push_back(std::move(errors.tables[table]));
+        }
+    }
+    errors.tables = std::move(of_others);
     std::erase_if(experiment.measurements, [](const Measurement& table) { return table.kind == MeasurementKind::waveform; });
-    for (Measurement& table : reduced) {
-        drop_empty_columns(table);
-        experiment.measurements.push_back(std::move(table));
+    for (Harmonics& made : reduced) {
+        drop_empty_columns(made);
+        experiment.measurements.push_back(std::move(made.table));
+        errors.tables.push_back(std::move(made.errors));
     }
 }
 

@@ -135,12 +135,12 @@ const char* name_of(Verdict verdict) {
 
 void check(const Experiment& experiment, const DiagnosisOptions& options) {
     possible_causes(experiment, options.causes);
-    check_structure_series(experiment, data_set_of(experiment, options.noise).observations);
+    check_structure_series(experiment, data_set_of(experiment, options.errors).observations);
 }
 
 Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const DiagnosisOptions& options, const Progress& progress) {
     const std::vector<const Mechanism*> possible = possible_causes(experiment, options.causes);
-    DataSet data = data_set_of(experiment, options.noise);
+    DataSet data = data_set_of(experiment, options.errors);
     const Forward forward(experiment, data.observations, simulator);
     data.noise.widen(forward.structure_deviation(data.values));
     set_correlations(correlations_by_base(forward, data), data);
@@ -149,7 +149,7 @@ Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const Dia
     const std::vector<std::vector<bool>> folds = choose_folds(experiment, data.observations, options.held_out_part);
 
     Diagnosis diagnosis;
-    diagnosis.noise = options.noise;
+    diagnosis.sample_deviation = options.errors.sample;
     diagnosis.observations = data.observations.size();
     progress.update("fitting the base model", 0.1);
     const Fit base = inference.fit({});

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fold_errors.hpp"
 
-#include <coagula/diagnose/stated_errors.hpp>
-
 #include <algorithm>
 #include <string_view>
 
@@ -20,21 +18,12 @@ Column& column_of(Experiment& experiment, const Observation& one) {
 
 DataSet with_errors_of_the_rest(const DataSet& data, const std::vector<bool>& held_out, const Experiment& experiment,
                                 const Eigen::VectorXd& structure_deviation, const DiagnosisOptions& options) {
-    Experiment all = experiment;
-    bool any = false;
-    for (Measurement& table : all.measurements) {
-        for (Column& column : table.columns) {
-            if (column.errors_estimated) {
-                any = true;
-                column.standard_errors.clear();
-                table.polar_errors = false;
-            }
-        }
-    }
-    if (!any) {
+    const std::vector<TableErrors>& errors = options.errors.tables;
+    if (std::none_of(errors.begin(), errors.end(),
+                     [](const TableErrors& one) { return one.source == ErrorSource::noise && !one.columns.empty(); })) {
         return data;
     }
-    Experiment rest = all;
+    Experiment rest = experiment;
     for (std::size_t k = 0; k < data.observations.size(); ++k) {
         const Observation& one = data.observations[k];
         if (held_out[k] && is_modulus_or_viscosity(one)) {
@@ -42,10 +31,7 @@ DataSet with_errors_of_the_rest(const DataSet& data, const std::vector<bool>& he
         }
     }
     const std::vector<NoiseModel> noise = noise_of_tables(rest.measurements, options.stated_noise);
-    state_errors(all, noise);
-    NoiseSettings settings = options.noise;
-    state_sample_effect(noise, options.stated_noise.stated_sample, settings);
-    DataSet found = data_set_of(all, settings);
+    DataSet found = data_set_of(experiment, estimated_errors(experiment, noise, options.stated_noise, options.errors));
     found.noise.widen(structure_deviation);
     return found;
 }

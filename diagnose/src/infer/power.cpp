@@ -34,7 +34,8 @@ std::vector<std::string> planned_columns(const Measurement& table) {
 
 /// The tables of moduli and of third harmonics with a number in every cell that is to be measured.
 Experiment prepared(Experiment experiment) {
-    reduce_waveforms(experiment, 0, 0);
+    ErrorSpec none;
+    reduce_waveforms(experiment, none, 0, 0);
     auto& tables = experiment.measurements;
     std::erase_if(tables,
                   [](const Measurement& table) { return !has_moduli(table.kind) && table.kind != MeasurementKind::harmonics; });
@@ -87,8 +88,8 @@ double Planned::deviation(std::size_t k, double value, double complex_modulus) c
         return std::hypot(one.standard_error, third_harmonic_error * value);
     }
     const double weight = std::isfinite(one.strain) ? 1 / one.strain : 1.0;
-    const double row = std::hypot(options_.noise.stated_floor * weight, options_.noise.stated_relative * value);
-    return is_loss(one) ? std::hypot(row, options_.noise.stated_phase * complex_modulus) : row;
+    const double row = std::hypot(options_.noise.floor * weight, options_.noise.relative * value);
+    return is_loss(one) ? std::hypot(row, options_.noise.phase * complex_modulus) : row;
 }
 
 Experiment Planned::draw(const Eigen::VectorXd& expected, std::uint64_t number) const {
@@ -98,7 +99,7 @@ Experiment Planned::draw(const Eigen::VectorXd& expected, std::uint64_t number) 
     std::map<std::string, double> factor;
     for (const Measurement& table : experiment_.measurements) {
         factor.try_emplace(table.sample,
-                           1 + options_.noise.stated_sample * normal_number(seed, first_step + number, count + factor.size()));
+                           1 + options_.noise.sample * normal_number(seed, first_step + number, count + factor.size()));
     }
     const Eigen::ArrayXd sizes = complex_moduli(observations_, expected);
     const Eigen::VectorXd structures = forward_.structure_deviation(expected);  // of what is measured from what is simulated
@@ -303,7 +304,7 @@ Power find_power(const Experiment& experiment, Simulator& simulator, const Power
                          std::string(name_of(experiment.material.kind)) + "'");
     }
     PowerOptions options = given;
-    options.diagnosis.noise.sample = given.noise.stated_sample;
+    options.diagnosis.errors.sample = given.noise.sample;
     const Planned planned(prepared(experiment), simulator, options);
     require_causes(options.causes);
     Power power;

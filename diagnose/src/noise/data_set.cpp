@@ -141,11 +141,11 @@ DataSet DataSet::part(const std::vector<Index>& rows) const {
     return some;
 }
 
-DataSet data_set_of(const Experiment& experiment, const NoiseSettings& noise) {
+DataSet data_set_of(const Experiment& experiment, const ErrorSpec& errors) {
     DataSet data;
-    data.observations = observations_of(experiment);
-    data.effect = noise.sample;
-    data.effect_degrees = noise.sample_degrees;
+    data.observations = observations_of(experiment, errors);
+    data.effect = errors.sample;
+    data.effect_degrees = errors.sample_degrees;
     if (data.observations.size() < fewest_observations) {
         const auto& tables = experiment.measurements;
         const bool centres = std::any_of(tables.begin(), tables.end(),

@@ -51,7 +51,8 @@ struct DataSet {
 };
 
 /// Throws InputError when there are too few observations to say anything.
-DataSet data_set_of(const Experiment& experiment, const NoiseSettings& noise);
+/// @param errors beside those that tables state.
+DataSet data_set_of(const Experiment& experiment, const ErrorSpec& errors);
 
 /// Chi-square over its degrees of freedom at a standard normal number, by the cube root (Wilson and Hilferty 1931).
 double scaled_chi_square(double degrees, double normal);

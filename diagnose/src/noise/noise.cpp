@@ -14,6 +14,8 @@ namespace {
 constexpr int passes = 4;
 /// 95 % point of chi-square with one degree of freedom.
 constexpr double chi_square_95 = 3.841458820694124;
+/// Largest over smallest ratio of level to w below which floor and relative part cannot be told apart, and the floor is left out.
+constexpr double least_range = 3;
 
 /// Conditions with at least two values; the others say nothing about noise.
 ReplicatedValues replicated_values(const Replicates& replicates, std::vector<std::string>& sample_names) {
@@ -281,11 +283,11 @@ void take_off_fitted(NoiseModel& noise, int fitted) {
 }
 
 void fit_replicates(NoiseModel& noise, const Replicates& replicates, const ReplicatedValues& data,
-                    const std::vector<std::string>& names, const NoiseOptions& options) {
+                    const std::vector<std::string>& names, const StatedNoise& given) {
     const bool of_phase = is_of_phase(noise);
     Eigen::VectorXd levels = of_phase ? where_replicated(replicates, replicates.levels) : mean_levels(data);
     const Eigen::VectorXd sizes = levels.cwiseQuotient(data.floor_weights).cwiseAbs();
-    const bool with_floor = sizes.maxCoeff() >= options.least_range * sizes.minCoeff();
+    const bool with_floor = sizes.maxCoeff() >= least_range * sizes.minCoeff();
     const bool with_sample = data.samples > 1 && !of_phase;
     Eigen::VectorXd effects = Eigen::VectorXd::Zero(data.samples);
     Deviations best = first_guess(data, levels);
@@ -302,7 +304,7 @@ void fit_replicates(NoiseModel& noise, const Replicates& replicates, const Repli
         }
         noise.floor = with_floor ? profile(likelihood, best, 0) : Estimate{};
         noise.relative = profile(likelihood, best, 1);
-        noise.sample = with_sample ? profile(likelihood, best, 2) : stated(of_phase ? 0 : options.stated_sample);
+        noise.sample = with_sample ? profile(likelihood, best, 2) : stated(of_phase ? 0 : given.sample);
         const RestrictedFit fit = likelihood.fit(best);
         for (std::size_t s = 0; with_sample && s < names.size(); ++s) {
             noise.sample_effects.push_back({names[s], fit.effects[static_cast<Eigen::Index>(s)]});
@@ -325,7 +327,7 @@ void fit_replicates(NoiseModel& noise, const Replicates& replicates, const Repli
 
 }  // namespace
 
-NoiseModel fit_noise(const Replicates& replicates, const NoiseOptions& options) {
+NoiseModel fit_noise(const Replicates& replicates, const StatedNoise& given) {
     require(replicates.samples.size() == static_cast<std::size_t>(replicates.values.cols()),
             "replicates: one sample name per table is needed");
     require(replicates.axis.size() == replicates.values.rows(), "replicates: one axis value per row is needed");
@@ -344,13 +346,13 @@ NoiseModel fit_noise(const Replicates& replicates, const NoiseOptions& options) 
     constexpr Eigen::Index fewest_conditions = 3;
     const bool enough = data.conditions >= fewest_conditions;
     if (enough && (is_of_phase(noise) || (mean_levels(data).array() > 0).all())) {
-        fit_replicates(noise, replicates, data, names, options);
+        fit_replicates(noise, replicates, data, names, given);
         return noise;
     }
-    noise.floor = stated(options.stated_floor);
-    noise.stated_correlation = options.stated_correlation;
-    noise.relative = stated(is_of_phase(noise) ? options.stated_phase : options.stated_relative);
-    noise.sample = stated(is_of_phase(noise) ? 0 : options.stated_sample);
+    noise.floor = stated(given.floor);
+    noise.stated_correlation = given.correlation;
+    noise.relative = stated(is_of_phase(noise) ? given.phase : given.relative);
+    noise.sample = stated(is_of_phase(noise) ? 0 : given.sample);
     noise.statement =
         enough ? "stated, not measured: replicates average to zero or below" : "stated, not measured: there are no replicates";
     return noise;

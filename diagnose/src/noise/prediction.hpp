@@ -2,13 +2,19 @@
 // Prediction of a model for every measured number.
 #pragma once
 
-#include "model_errors.hpp"
-
 #include <Eigen/Core>
 
+#include <limits>
 #include <utility>
 
 namespace coagula::diagnose {
+
+/// Independent errors of a prediction, over their standard errors.
+struct ModelErrors {
+    Eigen::MatrixXd changes = {};                              ///< numbers x errors: slopes of the numbers by these
+    double degrees = std::numeric_limits<double>::infinity();  ///< of freedom from which their common scale is known
+    Eigen::VectorXd linearised_at = {};  ///< errors at which numbers and slopes are those of the model; empty: 0
+};
 
 struct Prediction {
     Eigen::VectorXd values;  ///< at the errors `errors.linearised_at`

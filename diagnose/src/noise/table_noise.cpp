@@ -28,10 +28,10 @@ void borrow(NoiseModel& model, const NoiseModel& donor) {
 
 }  // namespace
 
-std::vector<NoiseModel> noise_of_tables(const std::vector<Measurement>& measurements, const NoiseOptions& options) {
+std::vector<NoiseModel> noise_of_tables(const std::vector<Measurement>& measurements, const StatedNoise& stated) {
     std::vector<NoiseModel> models;
     for (const Replicates& replicates : find_replicates(measurements)) {
-        models.push_back(fit_noise(replicates, options));
+        models.push_back(fit_noise(replicates, stated));
     }
     for (NoiseModel& model : models) {
         const NoiseModel* donor = model.rows_estimated ? nullptr : donor_of(models, model);

@@ -37,35 +37,38 @@ std::span<const Shown> shown_in(const Measurement& table) {
     return is_flow(table.kind) ? std::span<const Shown>(of_flow) : std::span<const Shown>(of_oscillations);
 }
 
-/// The errors of torque and phase at a row whose table states them: as near as can be, G' has the one and G'' the other.
-void take_polar_errors(const Measurement& table, Observation& one, Modulus& modulus) {
-    const Column& storage = *find_column(table, "storage_modulus");
-    const Column& loss = *find_column(table, "loss_modulus");
-    const double phase = std::atan2(loss.values[one.row], storage.values[one.row]);
+/// The errors of torque and phase at a row: as near as can be, G' has the one and G'' the other.
+void take_polar_errors(const Measurement& table, const ErrorSpec& errors, Observation& one, Modulus& modulus) {
+    const ColumnErrors& torque = *find_errors(errors, one.measurement, "storage_modulus");
+    const ColumnErrors& across = *find_errors(errors, one.measurement, "loss_modulus");
+    const double phase = std::atan2(cell(table, "loss_modulus", one.row), cell(table, "storage_modulus", one.row));
     if (!std::isnan(phase)) {
         modulus.turned = std::remainder(phase, std::numbers::pi / 2);
         const bool liquid = std::lround((phase - modulus.turned) / (std::numbers::pi / 2)) % 2 != 0;
         modulus.of_phase = modulus.loss != liquid;
     }
-    const Column& own = modulus.of_phase ? loss : storage;
-    const Column& other = modulus.of_phase ? storage : loss;
-    one.errors = own.errors;
-    one.standard_error = own.standard_errors[one.row];
-    modulus.other_error = other.standard_errors[one.row];
+    const ColumnErrors& own = modulus.of_phase ? across : torque;
+    one.errors = own.law;
+    one.standard_error = own.deviations[one.row];
+    modulus.other_error = (modulus.of_phase ? torque : across).deviations[one.row];
 }
 
 /// The cell of a column at these conditions.
 Observation observation_at(const RowConditions& conditions, const Measurement& table, std::size_t number, std::size_t row,
-                           const Shown& shown) {
+                           const Shown& shown, const ErrorSpec& errors) {
     const Column& column = *find_column(table, shown.column);
-    Observation one{conditions, number, row, shown.what, column.values[row], unset, column.errors};
+    Observation one{conditions, number, row, shown.what, column.values[row]};
     if (!column.standard_errors.empty()) {
         one.standard_error = column.standard_errors[row];
+    } else if (const ColumnErrors* known = find_errors(errors, number, shown.column)) {
+        one.standard_error = known->deviations[row];
+        one.errors = known->law;
     } else if (is<Harmonic>(one)) {
         one.standard_error = unstated_error;
     }
-    if (auto* modulus = std::get_if<Modulus>(&one.what); modulus != nullptr && table.polar_errors) {
-        take_polar_errors(table, one, *modulus);
+    if (auto* modulus = std::get_if<Modulus>(&one.what);
+        modulus != nullptr && number < errors.tables.size() && errors.tables[number].polar) {
+        take_polar_errors(table, errors, one, *modulus);
     }
     if (auto* viscosity = std::get_if<Viscosity>(&one.what)) {
         viscosity->shear_rate = cell(table, "shear_rate", row);
@@ -84,7 +87,8 @@ bool lacks_geometry(const Measurement& table, std::size_t row) {
 }
 
 /// Adds what a table shows of a response to shear.
-void add_sheared(std::vector<Observation>& all, const Experiment& experiment, const ConditionsOfRows& conditions, std::size_t run) {
+void add_sheared(std::vector<Observation>& all, const Experiment& experiment, const ConditionsOfRows& conditions, std::size_t run,
+                 const ErrorSpec& errors) {
     const Measurement& table = experiment.measurements[run];
     const bool flows = is_flow(table.kind);
     const bool fluid = std::isfinite(table.fluid_viscosity);
@@ -97,7 +101,7 @@ void add_sheared(std::vector<Observation>& all, const Experiment& experiment, co
                 (flows && std::isnan(cell(table, "shear_rate", row))) || lacks_geometry(table, row)) {
                 continue;
             }
-            all.push_back(observation_at(conditions.of(run, row), table, run, row, shown));
+            all.push_back(observation_at(conditions.of(run, row), table, run, row, shown, errors));
         }
     }
 }
@@ -141,7 +145,7 @@ double relative_to(const Observation& observation, double level) {
     return is<Neighbours>(observation) ? std::max(level, 1.0) : 1.0;
 }
 
-std::vector<Observation> observations_of(const Experiment& experiment) {
+std::vector<Observation> observations_of(const Experiment& experiment, const ErrorSpec& errors) {
     const ConditionsOfRows conditions(experiment);
     std::vector<Observation> all;
     for (std::size_t k = 0; k < experiment.measurements.size(); ++k) {
@@ -155,7 +159,7 @@ std::vector<Observation> observations_of(const Experiment& experiment) {
             all.insert(all.end(), pores.begin(), pores.end());
         }
         if (shows_shear(table)) {
-            add_sheared(all, experiment, conditions, k);
+            add_sheared(all, experiment, conditions, k, errors);
         }
     }
     return all;

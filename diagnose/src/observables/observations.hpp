@@ -2,6 +2,7 @@
 // The measured numbers, one by one.
 #pragma once
 
+#include <coagula/diagnose/error_spec.hpp>
 #include <coagula/diagnose/measurement.hpp>
 #include <coagula/diagnose/observable.hpp>
 
@@ -62,7 +63,7 @@ struct Observation : RowConditions {
     std::size_t row = 0;
     std::variant<Modulus, Harmonic, Viscosity, Neighbours, ImageDifference, Pore> what = {};
     double value = 0;
-    double standard_error = unset;  ///< NaN where the table has none
+    double standard_error = unset;  ///< NaN where nobody states or estimated one
     ErrorLaw errors = {};           ///< law of the errors, of torque or phase
 };
 
@@ -112,7 +113,8 @@ bool has_error_of_phase(const Observation& observation);
 double relative_to(const Observation& observation, double level);
 
 /// The moduli of all tables of moduli, row by row, cells that were left out skipped; then what tables show of the structure.
-std::vector<Observation> observations_of(const Experiment& experiment);
+/// @param errors beside those that tables state.
+std::vector<Observation> observations_of(const Experiment& experiment, const ErrorSpec& errors = {});
 
 /// |G*| at each observation of these moduli [Pa]; 1 at a third harmonic and between images.
 Eigen::ArrayXd complex_moduli(const std::vector<Observation>& observations, const Eigen::VectorXd& moduli);

@@ -181,6 +181,7 @@ Printed write_diagnosis(const DiagnoseRun& run, const Progress& progress) {
     const DiagnosisRecord record{found.checked.file.experiment,
                                  found.diagnosis,
                                  found.checked.noise,
+                                 found.checked.options.errors,
                                  finished(run.call, clock),
                                  found.sentences,
                                  found.checked.options.level,

@@ -75,10 +75,10 @@ Json json_of(const Power& power, const diagnose::PowerOptions& options) {
                  {"normal_stiffness", power.normal_stiffness},
                  {"by_chance", json_of(power.by_chance)},
                  {"noise",
-                  {{"relative", options.noise.stated_relative},
-                   {"floor", options.noise.stated_floor},
-                   {"phase", options.noise.stated_phase},
-                   {"sample", options.noise.stated_sample}}},
+                  {{"relative", options.noise.relative},
+                   {"floor", options.noise.floor},
+                   {"phase", options.noise.phase},
+                   {"sample", options.noise.sample}}},
                  {"causes", Json::array()}};
     for (const CausePower& cause : power.causes) {
         json["causes"].push_back(json_of(cause));

@@ -258,18 +258,23 @@ struct Turning {
         Experiment all;
         Measurement table;
         table.label = table.sample = "A";
-        table.polar_errors = true;
         table.columns = {{"angular_frequency", "rad/s", {}}, {"storage_modulus", "Pa", {}}, {"loss_modulus", "Pa", {}}};
         for (Index row = 0; row < rows; ++row) {
             table.columns[0].values.push_back(1.0 + static_cast<double>(row));
             table.columns[1].values.push_back(1000 * std::cos(angle(row)));
             table.columns[2].values.push_back(1000 * std::sin(angle(row)));
-            table.columns[1].standard_errors.push_back(1000 * torque);
-            table.columns[2].standard_errors.push_back(1000 * phase);
         }
-        table.columns[1].errors.correlation = table.columns[2].errors.correlation = correlation;
         all.measurements.push_back(table);
         return all;
+    }
+
+    static DataSet data() {
+        const ErrorLaw law{.correlation = correlation};
+        ErrorSpec errors;
+        errors.tables = {{.polar = true,
+                          .columns = {{"storage_modulus", std::vector<double>(rows, 1000 * torque), law},
+                                      {"loss_modulus", std::vector<double>(rows, 1000 * phase), law}}}};
+        return data_set_of(experiment(), errors);
     }
 
     /// From errors along and across G*, each correlated from row to row; all G', then all G''.
@@ -293,7 +298,7 @@ struct Turning {
 };
 
 TEST(RowNoise, WhitensErrorsOfTorqueAndPhase) {
-    const DataSet data = data_set_of(Turning::experiment(), {});
+    const DataSet data = Turning::data();
     const Eigen::MatrixXd covariance = Turning::covariance();
     const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(2 * Turning::rows, 2 * Turning::rows);
     const Eigen::MatrixXd left = whitened(data.noise, covariance) - unit;
@@ -303,7 +308,7 @@ TEST(RowNoise, WhitensErrorsOfTorqueAndPhase) {
 }
 
 TEST(RowNoise, OfOneModulusAloneIsItsOwn) {
-    const DataSet data = data_set_of(Turning::experiment(), {});
+    const DataSet data = Turning::data();
     std::vector<Index> storage(Turning::rows);
     std::iota(storage.begin(), storage.end(), 0);
     const DataSet part = data.part(storage);

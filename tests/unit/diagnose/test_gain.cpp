@@ -5,7 +5,6 @@
 
 #include <coagula/common/random.hpp>
 #include <coagula/diagnose/mechanism.hpp>
-#include <coagula/diagnose/stated_errors.hpp>
 
 #include <gtest/gtest.h>
 
@@ -86,19 +85,19 @@ Experiment sweeps_of_four() {
 }
 
 TEST(Gain, KnowsNothingOfTheErrorsOfWhatIsHeldOut) {
-    Experiment experiment = sweeps_of_four();
-    state_errors(experiment, noise_of_tables(experiment.measurements));
-    const DataSet data = data_set_of(experiment, {});
+    const Experiment experiment = sweeps_of_four();
+    DiagnosisOptions options;
+    options.errors = estimated_errors(experiment, noise_of_tables(experiment.measurements));
+    const DataSet data = data_set_of(experiment, options.errors);
     ASSERT_EQ(data.size(), 80);
     EXPECT_GT(data.noise.deviation[0], 30);
     std::vector<bool> held_out(80, false);
     std::fill(held_out.begin() + 60, held_out.end(), true);
-    const DataSet rest = with_errors_of_the_rest(data, held_out, experiment, Eigen::VectorXd::Zero(80), {});
+    const DataSet rest = with_errors_of_the_rest(data, held_out, experiment, Eigen::VectorXd::Zero(80), options);
     EXPECT_EQ(rest.values, data.values);
     Experiment alone = sweeps_of_four();
     alone.measurements.pop_back();
-    state_errors(alone, noise_of_tables(alone.measurements));
-    const DataSet others = data_set_of(alone, {});
+    const DataSet others = data_set_of(alone, estimated_errors(alone, noise_of_tables(alone.measurements)));
     EXPECT_LT((rest.noise.deviation.head(60) - others.noise.deviation).cwiseAbs().maxCoeff(), 1e-6 * others.noise.deviation[0]);
     EXPECT_NEAR(rest.noise.deviation[70], 10, 3);  // what is expected of a sample like the others
 }
@@ -127,14 +126,15 @@ Experiment dragged_samples(double last) {
 
 /// What the last sample is predicted to show by the base model and by the drag that the others ask for.
 Gain gain_of_last(double factor) {
-    Experiment experiment = dragged_samples(factor);
-    state_errors(experiment, noise_of_tables(experiment.measurements));
-    const DataSet data = data_set_of(experiment, {});
+    const Experiment experiment = dragged_samples(factor);
+    DiagnosisOptions options;
+    options.errors = estimated_errors(experiment, noise_of_tables(experiment.measurements));
+    const DataSet data = data_set_of(experiment, options.errors);
     std::vector<bool> held_out;
     for (const Observation& one : data.observations) {
         held_out.push_back(one.measurement == 2);
     }
-    return measure_gain(data, {held_out}, experiment, simulator(), {find_mechanism("solvent-drag")}, {});
+    return measure_gain(data, {held_out}, experiment, simulator(), {find_mechanism("solvent-drag")}, options);
 }
 
 /// Nor do the errors of the drag that structures leave follow rows that are held out.

@@ -120,7 +120,7 @@ TEST(Noise, IsTheSameForACompleteTableWithMissingRowsAdded) {
 
 TEST(Noise, StatesItsDefaultsWhereThereAreNoReplicates) {
     Replicates single = simulate({5e-4, 0.03, 0.2}, 25, 1, 8);
-    const NoiseModel noise = fit_noise(single, {.stated_relative = 0.07, .stated_sample = 0.12, .stated_floor = 2});
+    const NoiseModel noise = fit_noise(single, {.relative = 0.07, .sample = 0.12, .floor = 2});
     EXPECT_FALSE(noise.rows_estimated);
     EXPECT_FALSE(noise.sample_estimated);
     EXPECT_EQ(noise.relative.value, 0.07);
@@ -132,7 +132,7 @@ TEST(Noise, StatesItsDefaultsWhereThereAreNoReplicates) {
 TEST(Noise, RepeatsOnOneSampleSayNothingAboutSamples) {
     Replicates repeats = simulate({5e-4, 0.03, 0}, 25, 4, 9);
     repeats.samples.assign(4, "A");
-    const NoiseModel noise = fit_noise(repeats, {.stated_sample = 0.12});
+    const NoiseModel noise = fit_noise(repeats, {.sample = 0.12});
     EXPECT_TRUE(noise.rows_estimated);
     EXPECT_FALSE(noise.sample_estimated);
     EXPECT_EQ(noise.sample.value, 0.12);

@@ -47,21 +47,21 @@ Experiment planned() {
 PowerOptions options_for(const std::string& cause) {
     PowerOptions options;
     options.causes = {cause};
-    options.noise.stated_relative = 0.03;
+    options.noise.relative = 0.03;
     options.diagnosis.bootstrap = 199;
     options.diagnoses = 0;
     return options;
 }
 
 /// Measured moduli with errors and the effect of a sample.
-Experiment measured(const mechanics::FrequencyResponse& truth, const NoiseOptions& noise, std::uint64_t seed) {
-    const double sample = 1 + noise.stated_sample * drawn_normal(seed, 1000, 11);
+Experiment measured(const mechanics::FrequencyResponse& truth, const StatedNoise& noise, std::uint64_t seed) {
+    const double sample = 1 + noise.sample * drawn_normal(seed, 1000, 11);
     Column storage{"storage_modulus", "Pa", {}, {}};
     Column loss{"loss_modulus", "Pa", {}, {}};
     for (std::size_t k = 0; k < truth.points.size(); ++k) {
         const std::complex<double> modulus = sample * truth.points[k].mean_shear_modulus();
-        storage.standard_errors.push_back(noise.stated_relative * modulus.real());
-        loss.standard_errors.push_back(std::hypot(noise.stated_relative * modulus.imag(), noise.stated_phase * std::abs(modulus)));
+        storage.standard_errors.push_back(noise.relative * modulus.real());
+        loss.standard_errors.push_back(std::hypot(noise.relative * modulus.imag(), noise.phase * std::abs(modulus)));
         storage.values.push_back(modulus.real() + storage.standard_errors[k] * drawn_normal(seed, 2 * k, 11));
         loss.values.push_back(modulus.imag() + loss.standard_errors[k] * drawn_normal(seed, 2 * k + 1, 11));
     }
@@ -81,7 +81,7 @@ double found_share(const PowerOptions& options, double springpot_over_spring, do
     const auto truth =
         mechanics::solve_frequency_sweep(known_structure(), find_contacts(known_structure(), 0.01), model, frequencies());
     DiagnosisOptions diagnosis = options.diagnosis;
-    diagnosis.noise.sample = options.noise.stated_sample;
+    diagnosis.errors.sample = options.noise.sample;
     diagnosis.level = 0;  // nothing is asked but the p-value of the base model
     int found = 0;
     for (int set = 1; set <= data_sets; ++set) {
@@ -94,7 +94,7 @@ double found_share(const PowerOptions& options, double springpot_over_spring, do
 
 TEST(Power, AgreesWithDiagnosesOfDataMadeInAnotherWay) {
     PowerOptions options = options_for("contact-loss");
-    options.noise.stated_phase = 0.02;  // with less, losses at the lower end of the prior are found more often than not
+    options.noise.phase = 0.02;  // with less, losses at the lower end of the prior are found more often than not
     const Power power = find_power(planned(), known_simulator(), options);
     ASSERT_EQ(power.causes.size(), 1U);
     const CausePower& loss = power.causes.front();
@@ -132,7 +132,7 @@ TEST(Power, FindsWeakerCausesWithLessNoise) {
     experiment.instrument.plate_radius = 0.0125;
     experiment.instrument.gap = 1e-3;
     const double noisy = find_power(experiment, known_simulator(), options).causes.front().half.value;
-    options.noise.stated_relative = 0.015;
+    options.noise.relative = 0.015;
     const double clean = find_power(experiment, known_simulator(), options).causes.front().half.value;
     EXPECT_NEAR(noisy / clean, 2, 0.4);  // the size of a linear effect that is found goes with the noise
 }
@@ -156,8 +156,8 @@ Experiment planned_sweep(bool waveforms) {
 
 TEST(Power, OfWaveforms) {
     PowerOptions options = options_for("contact-nonlinearity");
-    options.noise.stated_relative = 0.1;
-    options.noise.stated_phase = 0.1;
+    options.noise.relative = 0.1;
+    options.noise.phase = 0.1;
     options.data_sets = 100;
     const Power moduli = find_power(planned_sweep(false), known_simulator(), options);
     const Power both = find_power(planned_sweep(true), known_simulator(), options);

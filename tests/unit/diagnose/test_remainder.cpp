@@ -53,7 +53,7 @@ Experiment sweeps_of(const Modulus& modulus, std::uint64_t seed) {
 Diagnosis diagnosed(const Experiment& experiment) {
     DiagnosisOptions options;
     options.bootstrap = 399;
-    options.noise.sample = 0.02;
+    options.errors.sample = 0.02;
     return diagnose(experiment, simulator(), options);
 }
 

@@ -49,24 +49,29 @@ Measurement table_of(MeasurementKind kind, const std::vector<double>& times, con
     return table;
 }
 
-Measurement converted(Measurement table) {
+/// The sweep that stands for a step test, with its errors.
+struct Converted : Measurement {
+    TableErrors errors;
+};
+
+Converted converted(Measurement table) {
     Experiment experiment;
     experiment.measurements.push_back(std::move(table));
-    EXPECT_EQ(convert_step_tests(experiment).size(), 1);
-    return experiment.measurements.front();
+    const std::vector<StepConversion> conversions = convert_step_tests(experiment);
+    EXPECT_EQ(conversions.size(), 1);
+    return {experiment.measurements.front(), conversions.front().errors};
 }
 
 Complex modulus_in(const Measurement& sweep, std::size_t row) {
     return {find_column(sweep, "storage_modulus")->values[row], find_column(sweep, "loss_modulus")->values[row]};
 }
 
-double error_in(const Measurement& sweep, std::size_t row) {
-    return std::hypot(find_column(sweep, "storage_modulus")->standard_errors[row],
-                      find_column(sweep, "loss_modulus")->standard_errors[row]);
+double error_in(const Converted& sweep, std::size_t row) {
+    return std::hypot(sweep.errors.columns[0].deviations[row], sweep.errors.columns[1].deviations[row]);
 }
 
 /// Every row is the closed form to a hundredth, and to its error; the middle error is small.
-void expect_closed_form(const Measurement& sweep, const ModulusCurve& truth, std::size_t fewest) {
+void expect_closed_form(const Converted& sweep, const ModulusCurve& truth, std::size_t fewest) {
     ASSERT_GE(sweep.rows(), fewest);
     EXPECT_EQ(sweep.kind, MeasurementKind::frequency_sweep);
     std::vector<double> errors;
@@ -143,7 +148,7 @@ TEST(StepTest, ErrorsHoldTheScatter) {
     double squares = 0;
     double count = 0;
     for (int seed = 1; seed <= runs; ++seed) {
-        const Measurement sweep = converted(table_of(MeasurementKind::creep, times_to(100), burgers_compliance, 0.01, seed));
+        const Converted sweep = converted(table_of(MeasurementKind::creep, times_to(100), burgers_compliance, 0.01, seed));
         for (std::size_t row = 0; row < sweep.rows(); ++row) {
             const Complex exact = burgers(sweep.columns.front().values[row]);
             squares += std::norm((modulus_in(sweep, row) - exact) / error_in(sweep, row));
@@ -183,7 +188,7 @@ TEST(StepTest, TheInertiaWithWhichACreepRingsIsInTheModulus) {
         creep.columns[2].values.push_back(torque);
     }
     derive_step_response(creep, plates, false);
-    const Measurement sweep = converted(creep);
+    const Converted sweep = converted(creep);
     ASSERT_GE(sweep.rows(), 20);
     EXPECT_LT(modulus_in(sweep, 0).real(), -10000);  // beyond the resonance
     for (std::size_t row = 0; row < sweep.rows(); ++row) {
@@ -197,12 +202,12 @@ TEST(StepTest, TheInertiaWithWhichACreepRingsIsInTheModulus) {
 }
 
 TEST(StepTest, TheLastRowIsAtTheEndOfTheStep) {
-    const Measurement sweep = converted(table_of(MeasurementKind::creep, times_to(100), burgers_compliance));
+    const Converted sweep = converted(table_of(MeasurementKind::creep, times_to(100), burgers_compliance));
     const std::vector<double>& time = find_column(sweep, "time")->values;
     const std::vector<double>& frequency = find_column(sweep, "angular_frequency")->values;
     EXPECT_NEAR(time.back(), 100, 1e-9);
     EXPECT_NEAR(time.front() * frequency.front(), time.back() * frequency.back(), 1e-9);
-    EXPECT_TRUE(sweep.polar_errors);
+    EXPECT_TRUE(sweep.errors.polar);
     EXPECT_TRUE(*sweep.stress_controlled);
 }
 

@@ -93,7 +93,7 @@ TEST(StressControl, ASmoothMaterialDoesNotVaryAlongTheStrainThatFollows) {
     experiment.measurements = {sweep_under_stress()};
     DiagnosisOptions options;
     options.bootstrap = 199;
-    options.noise.sample = 0.02;
+    options.errors.sample = 0.02;
     const auto inertia_in = [&] {
         const Diagnosis found = diagnose(experiment, simulator(), options);
         const auto cause =

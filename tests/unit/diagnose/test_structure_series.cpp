@@ -135,7 +135,7 @@ TEST(StructureSeries, PlanSaysWhichBendingItCouldFind) {
     plan.measurements = {table};
     PowerOptions options;
     options.causes = {"bond-bending"};
-    options.noise.stated_relative = 0.03;
+    options.noise.relative = 0.03;
     options.diagnosis.bootstrap = 199;
     options.diagnoses = 0;
     const Power power = find_power(plan, *known_series().simulator, options);
@@ -279,7 +279,7 @@ TEST(StructureError, OfTheLevelCountsWhereTheStiffnessIsKnown) {
         DiagnosisOptions options;
         options.bootstrap = 199;
         options.causes = {"shear-stiffness"};
-        options.noise.sample = sample_effect;
+        options.errors.sample = sample_effect;
         return diagnose(experiment, simulator, options).detected;
     };
     ASSERT_GT(structure_error(simulator), 0.05) << "the known stiffness itself is hardly better known";

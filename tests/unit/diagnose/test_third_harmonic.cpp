@@ -160,7 +160,8 @@ TEST(ThirdHarmonic, AWaveformIsARowOfItsSweepAndCountsOnce) {
                                                     {"angular_frequency", "rad/s", {frequency, frequency, frequency}},
                                                     {"storage_modulus", "Pa", {100, 90, 50}}}),
         linear_waveform(2.01e-4, 90, 0, 1), linear_waveform(7e-4, 40, 0, 2)};
-    reduce_waveforms(experiment, 0.03, 0.01);
+    ErrorSpec errors;
+    reduce_waveforms(experiment, errors, 0.03, 0.01);
     ASSERT_EQ(experiment.measurements.size(), 2U);
     const Measurement& table = experiment.measurements[1];
     EXPECT_EQ(table.kind, MeasurementKind::harmonics);
@@ -169,12 +170,12 @@ TEST(ThirdHarmonic, AWaveformIsARowOfItsSweepAndCountsOnce) {
     EXPECT_TRUE(std::isnan(find_column(table, "time")->values[1]));
     EXPECT_TRUE(std::isnan(find_column(table, "storage_modulus")->values[0]));
     EXPECT_NEAR(find_column(table, "storage_modulus")->values[1], 40, 1e-6);
-    EXPECT_NEAR(find_column(table, "storage_modulus")->standard_errors[1], 40 * std::hypot(0.03, 0.002), 1e-6);
+    EXPECT_NEAR(find_errors(errors, 1, "storage_modulus")->deviations[1], 40 * std::hypot(0.03, 0.002), 1e-6);
     const auto rows = observations_of(experiment);
     EXPECT_EQ(rows.size(), 3U + 4U + 2U);
     experiment.measurements.push_back(
         table_of(MeasurementKind::waveform, {{"time", "s", {0, 1}}, {"strain", "1", {0, 1}}, {"stress", "Pa", {0, 1}}}));
-    EXPECT_THROW(reduce_waveforms(experiment, 0.03, 0.01), InputError);
+    EXPECT_THROW(reduce_waveforms(experiment, errors, 0.03, 0.01), InputError);
 }
 
 TEST(ThirdHarmonic, AFrequencyThatIsNotStatedIsThatOfTheWaveform) {
@@ -185,7 +186,8 @@ TEST(ThirdHarmonic, AFrequencyThatIsNotStatedIsThatOfTheWaveform) {
             linear_waveform(2e-4, 90, 0, 1)};
         auto& columns = experiment.measurements[0].columns;
         columns.insert(columns.end(), more.begin(), more.end());
-        reduce_waveforms(experiment, 0.03, 0.01);
+        ErrorSpec errors;
+        reduce_waveforms(experiment, errors, 0.03, 0.01);
         return find_column(experiment.measurements[1], "storage_modulus") != nullptr;
     };
     EXPECT_FALSE(moduli_in_waveform({}));
@@ -219,7 +221,8 @@ TEST(ThirdHarmonic, ComesAfterTheRowsBeforeItsOwn) {
                                              {"storage_modulus", "Pa", ones},
                                              {"angular_frequency", "rad/s", std::vector<double>(strains.size(), frequency)}}),
                                    linear_waveform(strains.back(), 1, 0, 1)};
-        reduce_waveforms(experiment, 0.03, 0.01);
+        ErrorSpec errors;
+        reduce_waveforms(experiment, errors, 0.03, 0.01);
         const auto rows = observations_of(experiment);
         const Eigen::VectorXd values = Forward(experiment, rows, simulator()).predict(settings);
         return std::hypot(values[values.size() - 1], values[values.size() - 2]);
@@ -228,31 +231,38 @@ TEST(ThirdHarmonic, ComesAfterTheRowsBeforeItsOwn) {
     EXPECT_GT(at_last({2e-4, 7.5e-4}), 0.03);
 }
 
+struct Sweep {
+    Experiment experiment;
+    ErrorSpec errors = {};
+};
+
 /// One sweep upwards with its waveforms.
-Experiment sweep(const std::vector<double>& strains, const std::vector<double>& moduli, const std::vector<Measurement>& waveforms,
-                 double error, std::uint64_t seed) {
+Sweep sweep(const std::vector<double>& strains, const std::vector<double>& moduli, const std::vector<Measurement>& waveforms,
+            double error, std::uint64_t seed) {
     std::vector<double> values;
     std::vector<double> errors;
     for (std::size_t k = 0; k < strains.size(); ++k) {
         errors.push_back(error * moduli[k]);
         values.push_back(moduli[k] + errors.back() * drawn_normal(seed, 1000 + k));
     }
-    Experiment experiment;
-    experiment.measurements = {
+    Sweep made;
+    auto& tables = made.experiment.measurements;
+    tables = {
         table_of(MeasurementKind::amplitude_sweep, {{"strain", "1", strains},
                                                     {"time", "s", logarithmic_steps(10, 1000, static_cast<int>(strains.size()))},
                                                     {"angular_frequency", "rad/s", std::vector<double>(strains.size(), frequency)},
                                                     {"storage_modulus", "Pa", values, errors}})};
-    experiment.measurements.insert(experiment.measurements.end(), waveforms.begin(), waveforms.end());
-    reduce_waveforms(experiment, 0.03, 0.01);
-    return experiment;
+    tables.insert(tables.end(), waveforms.begin(), waveforms.end());
+    reduce_waveforms(made.experiment, made.errors, 0.03, 0.01);
+    return made;
 }
 
-Diagnosis diagnosed(const Experiment& experiment, std::vector<std::string> causes = {}) {
+Diagnosis diagnosed(const Sweep& measured, std::vector<std::string> causes = {}) {
     DiagnosisOptions options;
+    options.errors = measured.errors;
     options.bootstrap = 399;
     options.causes = std::move(causes);
-    return diagnose(experiment, simulator(), options);
+    return diagnose(measured.experiment, simulator(), options);
 }
 
 std::vector<Measurement> linear_waveforms(const std::vector<double>& strains, const std::vector<double>& moduli,
@@ -326,8 +336,9 @@ TEST(ThirdHarmonic, OfALinearSampleIsNotFound) {
         DiagnosisOptions options;
         options.seed = seed + 1;
         options.bootstrap = 199;
-        const Experiment measured = sweep(strains, moduli, linear_waveforms(strains, moduli, 100 * seed), 0.05, 1000 * seed);
-        detected += diagnose(measured, simulator(), options).detected ? 1 : 0;
+        const Sweep measured = sweep(strains, moduli, linear_waveforms(strains, moduli, 100 * seed), 0.05, 1000 * seed);
+        options.errors = measured.errors;
+        detected += diagnose(measured.experiment, simulator(), options).detected ? 1 : 0;
     }
     EXPECT_LE(detected, 4);  // of 20 at 5 %: more by chance in 0.3 %
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Torque, deflection and raw phase as moduli.
 #include <coagula/diagnose/check_data.hpp>
-#include <coagula/diagnose/stated_errors.hpp>
+#include <coagula/diagnose/noise.hpp>
 #include <coagula/diagnose/tool_constants.hpp>
 
 #include "hidden_effects.hpp"
@@ -171,8 +171,8 @@ TEST(RawModuli, ShowTheInertiaOfTheTool) {
     }
     ASSERT_LT(find_column(experiment.measurements[0], "storage_modulus")->values[15], 0);
     ASSERT_GT(inertia * 600 * 600 / stiffness, 1e5);
-    state_errors(experiment, noise_of_tables(experiment.measurements));
     DiagnosisOptions options;
+    options.errors = estimated_errors(experiment, noise_of_tables(experiment.measurements));
     options.bootstrap = 399;
     const Diagnosis found = diagnose(experiment, simulator(), options);
     EXPECT_EQ(found.verdict, Verdict::named);

@@ -78,7 +78,7 @@ Experiment sweeps(MeasurementKind kind, const Effect& modulus, std::uint64_t see
 Diagnosis verdict_on(const Experiment& experiment) {
     DiagnosisOptions options;
     options.bootstrap = 199;
-    options.noise.sample = 0.02;
+    options.errors.sample = 0.02;
     return diagnose(experiment, simulator(), options);
 }
 

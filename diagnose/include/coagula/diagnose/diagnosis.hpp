@@ -19,8 +19,8 @@
 namespace coagula::diagnose {
 
 struct DiagnosisOptions {
-    NoiseSettings noise;
-    NoiseOptions stated_noise;   ///< what state_errors() has assumed, for errors that are estimated anew without what is held out
+    ErrorSpec errors;            ///< beside those that tables state
+    StatedNoise stated_noise;    ///< assumed where errors are estimated anew without what is held out
     double level = 0.05;         ///< of the test whether anything is wrong
     int bootstrap = 999;         ///< data sets behind a p-value
     double held_out_part = 0.3;  ///< of the rows of a table, those at the end of its axis, if no whole table can be held out
@@ -228,7 +228,7 @@ struct Diagnosis {
     bool level_alone = false;               ///< a departure of the level of the moduli alone says as much as the best cause
     Gain gain;
     std::vector<Proposal> proposals;  ///< most informative first
-    NoiseSettings noise;
+    double sample_deviation = 0;      ///< of the factor of a sample, less 1, beforehand
     std::vector<PredictedRow> rows;
     std::size_t observations = 0;
     std::vector<TestedStatistic> statistics;     ///< of the base model, largest score first

@@ -66,21 +66,11 @@ struct TableRule {
 };
 TableRule rule_of(MeasurementKind kind);
 
-/// Knowledge about the errors of a column besides their size.
-struct ErrorLaw {
-    double correlation = 0;                                    ///< of neighbouring rows, 0 .. 1
-    double correlation_error = 0;                              ///< its standard error
-    double degrees = std::numeric_limits<double>::infinity();  ///< of freedom from which their size was estimated
-    double tail = std::numeric_limits<double>::infinity();     ///< degrees of freedom of Student's t; infinite: normal
-};
-
 struct Column {
     std::string name;                          ///< of a quantity
     std::string unit;                          ///< SI
     std::vector<double> values;                ///< one per row; NaN where the cell is empty or left out
-    std::vector<double> standard_errors = {};  ///< one per row in the same unit, or none
-    bool errors_estimated = false;             ///< these were estimated from replicates, or assumed
-    ErrorLaw errors = {};
+    std::vector<double> standard_errors = {};  ///< that the table states, one per row in the same unit, or none
 };
 
 /// A cell that is not used.
@@ -112,7 +102,6 @@ struct Measurement {
     double rate_before = 0;          ///< of a start-up: the shear rate that it begins from [1/s]
     double stress_before = 0;        ///< of a start-up: the steady stress at that rate [Pa]
     int oscillations = 1;            ///< at the strain of a row, of which the last is measured; >= 1
-    bool polar_errors = false;       ///< the standard errors of storage and loss modulus are those along and across G*
     std::vector<Column> columns;
     std::vector<LeftOutCell> left_out;
 

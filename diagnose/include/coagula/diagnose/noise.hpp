@@ -9,6 +9,7 @@
 // known, w = 1/strain; otherwise w = 1.
 #pragma once
 
+#include <coagula/diagnose/error_spec.hpp>
 #include <coagula/diagnose/measurement.hpp>
 
 #include <Eigen/Core>
@@ -52,22 +53,13 @@ struct SampleEffect {
     double effect;  ///< best linear unbiased prediction of b
 };
 
-struct NoiseOptions {
-    /// Values assumed where there are no replicates.
-    double stated_relative = 0.05;
-    double stated_sample = 0.1;
-    double stated_floor = 0;            ///< unit of the observable; of the stress where the strain is known
-    double stated_phase = 0.005;        ///< error of the phase [rad]
-    double stated_correlation = unset;  ///< of neighbouring rows; unset: nobody knows
-    /// Largest over smallest ratio of level to w below which floor and relative part cannot be told apart, and the floor is left
-    /// out.
-    double least_range = 3;
-};
-
-/// Effect of a sample on the level of its material.
-struct NoiseSettings {
-    double sample = 0.1;                                              ///< standard deviation of the factor, less 1
-    double sample_degrees = std::numeric_limits<double>::infinity();  ///< of freedom from which `sample` was estimated
+/// Noise that is stated, or usual: it is assumed where there are no replicates.
+struct StatedNoise {
+    double relative = 0.05;
+    double sample = 0.1;
+    double floor = 0;            ///< unit of the observable; of the stress where the strain is known
+    double phase = 0.005;        ///< error of the phase [rad]
+    double correlation = unset;  ///< of neighbouring rows; unset: nobody knows
 };
 
 struct NoiseModel {
@@ -111,11 +103,11 @@ inline bool is_of_phase(const NoiseModel& noise) {
 /// Restricted maximum likelihood (Patterson, Thompson, Biometrika 58 (1971) 545): one free level per condition, the three variances
 /// by the likelihood of the contrasts between replicates; the levels and effects in the variances are those of the previous of four
 /// passes. Throws std::invalid_argument when sizes do not fit together.
-NoiseModel fit_noise(const Replicates& replicates, const NoiseOptions& options = {});
+NoiseModel fit_noise(const Replicates& replicates, const StatedNoise& stated = {});
 
 /// The models of all tables of moduli. Tables without replicates take the rows' noise of those that have some: that of the same
 /// errors, of torque or phase, from the largest number of degrees of freedom.
-std::vector<NoiseModel> noise_of_tables(const std::vector<Measurement>& measurements, const NoiseOptions& options = {});
+std::vector<NoiseModel> noise_of_tables(const std::vector<Measurement>& measurements, const StatedNoise& stated = {});
 
 /// Joint statement of the models of torque, or of phase, about errors besides their size. Correlation of neighbours: what
 /// replicates show, freed from the bias that estimated sample effects make, where all from 0 to 0.9 are equally probable
@@ -130,5 +122,11 @@ ErrorShape shape_of_errors(const std::vector<NoiseModel>& models, const NoiseMod
 /// Standard deviation of e where the sample itself has this level, mu (1 + b); of the phase, |G*|. @param floor_weight w, see
 /// above.
 double standard_deviation(const NoiseModel& noise, double level, double floor_weight);
+
+/// Errors by the noise models for every modulus and viscosity whose error neither its table nor a reduction states, and the effect
+/// of a sample. Models of the same samples tell the same effects; the stated one counts as one degree of freedom.
+/// @param known errors so far: those by noise models are replaced, the others stay.
+ErrorSpec estimated_errors(const Experiment& experiment, const std::vector<NoiseModel>& noise, const StatedNoise& stated = {},
+                           ErrorSpec known = {});
 
 }  // namespace coagula::diagnose

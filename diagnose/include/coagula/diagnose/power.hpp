@@ -16,7 +16,7 @@ namespace coagula::diagnose {
 
 struct PowerOptions {
     DiagnosisOptions diagnosis;            ///< of every simulated data set; its noise is that stated
-    NoiseOptions noise;                    ///< what the rheometer is stated to do
+    StatedNoise noise;                     ///< what the rheometer is stated to do
     double storage_modulus = unset;        ///< expected at small strain [Pa]; NaN: that of particles with the stiffness of Settings
     std::vector<std::string> causes = {};  ///< of the catalogue; empty: all that the experiment could show
     int data_sets = 200;                   ///< at each strength close to the threshold

@@ -2,6 +2,7 @@
 // Step tests (creep, stress relaxation, start-up of shear) as moduli against frequency.
 #pragma once
 
+#include <coagula/diagnose/error_spec.hpp>
 #include <coagula/diagnose/measurement.hpp>
 
 #include <cstddef>
@@ -19,6 +20,7 @@ struct StepConversion {
     double lowest_frequency;        ///< [rad/s]
     double highest_frequency;       ///< [rad/s]
     double largest_strain = unset;  ///< up to which the response is taken for linear; unset: not known
+    TableErrors errors;             ///< of the frequency sweep
     std::string sentence;
 };
 
@@ -28,7 +30,7 @@ struct StepConversion {
 void derive_step_response(Measurement& table, const Instrument& instrument, bool raw);
 
 /// Puts a frequency sweep in the place of every step test: G* of a linear sample at five angular frequencies a decade between one
-/// over the last time and one over the first, where its error is below a tenth, with the standard errors of its size and phase. The
+/// over the last time and one over the first, where its error is below a tenth, with the errors of its size and phase. The
 /// tool is part of what is linear, so that its inertia, with which a creep rings, is in G* as it is in that of an oscillation.
 /// Throws InputError for a table whose step does not stay, whose stress overshoots in a start-up, which begins too late or gives
 /// fewer than five frequencies.

@@ -2,6 +2,7 @@
 // Analysis of a waveform: moduli of the first harmonic and the third harmonic of the stress.
 #pragma once
 
+#include <coagula/diagnose/error_spec.hpp>
 #include <coagula/diagnose/measurement.hpp>
 
 #include <cstddef>
@@ -38,12 +39,13 @@ inline constexpr const char* needs_of_harmonics =
     "and a strain and a stress that oscillate";
 
 /// Puts tables of harmonics in the place of the waveforms of an experiment, one for each sample, run and way to measure, with a row
-/// per waveform: `strain`, `angular_frequency`, `third_harmonic_storage` and `third_harmonic_loss` with standard errors, of which a
-/// quarter of the third harmonic is what the simulation does not know about it. Moduli are in it only where no sweep on the sample
-/// has a row at that strain and frequency, for that row is the same oscillation; else its time is. Throws InputError for a waveform
-/// without harmonics.
+/// per waveform: `strain`, `angular_frequency`, `third_harmonic_storage` and `third_harmonic_loss`. A quarter of the third
+/// harmonic, which the simulation does not know about it, is part of their errors. Moduli are in it only where no sweep on the
+/// sample has a row at that strain and frequency, for that row is the same oscillation; else its time is. Throws InputError for a
+/// waveform without harmonics.
+/// @param errors of the tables, among which those of the new tables take the place of those of waveforms.
 /// @param relative error of a modulus. @param phase error of it [rad].
-void reduce_waveforms(Experiment& experiment, double relative, double phase);
+void reduce_waveforms(Experiment& experiment, ErrorSpec& errors, double relative, double phase);
 
 /// The row of a sweep that was measured in the same oscillation as a row of a table of harmonics.
 struct SweepRow {

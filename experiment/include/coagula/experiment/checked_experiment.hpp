@@ -15,11 +15,11 @@
 namespace coagula::experiment {
 
 struct CheckedExperiment {
-    ExperimentFile file;  ///< ready to be diagnosed: errors stated, step tests as frequency sweeps, waveforms as harmonics
+    ExperimentFile file;  ///< ready to be diagnosed: step tests as frequency sweeps, waveforms as harmonics
     std::vector<diagnose::CheckedMeasurement> tables = {};   ///< as measured, before outliers were left out
     std::vector<diagnose::StepConversion> conversions = {};  ///< of step tests into frequency sweeps, by their place in `tables`
     std::vector<diagnose::NoiseModel> noise = {};            ///< of the tables
-    diagnose::DiagnosisOptions options = {};                 ///< with the noise of the experiment
+    diagnose::DiagnosisOptions options = {};                 ///< with the errors of the experiment
     ExperimentStructures structures = {};
 };
 

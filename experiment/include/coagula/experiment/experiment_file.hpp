@@ -22,7 +22,7 @@ struct TableFacts {
 
 struct ExperimentFile {
     diagnose::Experiment experiment;
-    diagnose::NoiseOptions noise;
+    diagnose::StatedNoise noise;
     double expected_storage_modulus = unset;  ///< at small strain, of planned measurements [Pa]
     std::vector<std::string> files;           ///< that it names
     std::vector<TableFacts> facts;            ///< one per measurement

@@ -16,6 +16,7 @@ struct DiagnosisRecord {
     const diagnose::Experiment& experiment;
     const diagnose::Diagnosis& diagnosis;
     const std::vector<diagnose::NoiseModel>& noise;
+    const diagnose::ErrorSpec& errors;
     io::Provenance provenance;
     std::vector<std::string> structures;  ///< one sentence each
     double level;                         ///< of the test

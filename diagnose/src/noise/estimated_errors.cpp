@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coagula/diagnose/stated_errors.hpp>
+#include <coagula/diagnose/noise.hpp>
 
 #include "data/table_cells.hpp"
 
@@ -65,13 +65,9 @@ const NoiseModel* model_of(const std::vector<NoiseModel>& noise, const Measureme
 }
 
 /// Deviations of torque or phase in every row, as a modulus; zero without a model.
-struct RowErrors {
-    ErrorLaw law;
-    std::vector<double> deviations;
-};
-
-RowErrors errors_by(const NoiseModel* model, const std::vector<NoiseModel>& noise, const Measurement& table, const Column& column) {
-    RowErrors errors{{}, std::vector<double>(column.values.size(), 0.0)};
+ColumnErrors errors_by(const NoiseModel* model, const std::vector<NoiseModel>& noise, const Measurement& table,
+                       const Column& column) {
+    ColumnErrors errors{column.name, std::vector<double>(column.values.size(), 0.0)};
     if (model == nullptr) {
         return errors;
     }
@@ -86,8 +82,8 @@ RowErrors errors_by(const NoiseModel* model, const std::vector<NoiseModel>& nois
 }
 
 /// Errors of one modulus from those of torque and phase, by the phase of each row.
-std::vector<double> errors_of_part(const Measurement& table, const Column& column, const RowErrors& torque,
-                                   const RowErrors& phase) {
+std::vector<double> errors_of_part(const Measurement& table, const Column& column, const ColumnErrors& torque,
+                                   const ColumnErrors& phase) {
     std::vector<double> errors;
     for (std::size_t row = 0; row < column.values.size(); ++row) {
         const double size = complex_modulus(table, row);
@@ -99,9 +95,9 @@ std::vector<double> errors_of_part(const Measurement& table, const Column& colum
 }
 
 /// The columns of moduli, or of the viscosity, whose errors the table does not state.
-std::vector<Column*> open_columns(Measurement& table) {
-    std::vector<Column*> open;
-    for (Column& column : table.columns) {
+std::vector<const Column*> open_columns(const Measurement& table) {
+    std::vector<const Column*> open;
+    for (const Column& column : table.columns) {
         const bool flows = is_flow(table.kind);
         const bool shown = flows ? column.name == "viscosity" : column.name == "storage_modulus" || column.name == "loss_modulus";
         if (shown && column.standard_errors.empty()) {
@@ -111,9 +107,26 @@ std::vector<Column*> open_columns(Measurement& table) {
     return open;
 }
 
-}  // namespace
+/// Errors of torque and phase for the columns whose errors the table does not state.
+TableErrors errors_of(const Measurement& table, const std::vector<NoiseModel>& noise) {
+    const std::vector<const Column*> open = open_columns(table);
+    const NoiseModel* torque = model_of(noise, table, false);
+    if (torque == nullptr || open.empty()) {
+        return {};
+    }
+    const NoiseModel* phase = model_of(noise, table, true);
+    const ColumnErrors along = errors_by(torque, noise, table, *open.front());
+    const ColumnErrors across = errors_by(phase, noise, table, *open.front());
+    TableErrors errors{.polar = open.size() == 2 && phase != nullptr};
+    for (const Column* column : open) {
+        const ColumnErrors& own = errors.polar && column->name == "loss_modulus" ? across : along;
+        errors.columns.push_back(
+            {column->name, errors.polar ? own.deviations : errors_of_part(table, *column, along, across), own.law});
+    }
+    return errors;
+}
 
-void state_sample_effect(const std::vector<NoiseModel>& noise, double stated, NoiseSettings& settings) {
+void estimate_sample_effect(const std::vector<NoiseModel>& noise, double stated, ErrorSpec& errors) {
     std::map<std::vector<std::string>, std::vector<double>> variances;
     for (const NoiseModel& model : noise) {
         if (model.sample_estimated) {
@@ -131,30 +144,22 @@ void state_sample_effect(const std::vector<NoiseModel>& noise, double stated, No
         squares += own * std::accumulate(each.begin(), each.end(), 0.0) / static_cast<double>(each.size());
         degrees += own;
     }
-    settings.sample = std::sqrt(squares / degrees);
-    settings.sample_degrees = variances.empty() ? settings.sample_degrees : degrees;
+    errors.sample = std::sqrt(squares / degrees);
+    errors.sample_degrees = variances.empty() ? errors.sample_degrees : degrees;
 }
 
-void state_errors(Experiment& experiment, const std::vector<NoiseModel>& noise) {
-    for (Measurement& table : experiment.measurements) {
-        const std::vector<Column*> open = open_columns(table);
-        const NoiseModel* torque = model_of(noise, table, false);
-        const NoiseModel* phase = model_of(noise, table, true);
-        if (torque == nullptr || open.empty()) {
-            continue;
-        }
-        const RowErrors along = errors_by(torque, noise, table, *open.front());
-        const RowErrors across = errors_by(phase, noise, table, *open.front());
-        table.polar_errors = open.size() == 2 && phase != nullptr;
-        for (Column* column : open) {
-            const bool of_phase = table.polar_errors && column->name == "loss_modulus";
-            column->errors = of_phase ? across.law : along.law;
-            column->errors_estimated = true;
-            column->standard_errors = !table.polar_errors ? errors_of_part(table, *column, along, across)
-                                      : of_phase          ? across.deviations
-                                                          : along.deviations;
+}  // namespace
+
+ErrorSpec estimated_errors(const Experiment& experiment, const std::vector<NoiseModel>& noise, const StatedNoise& stated,
+                           ErrorSpec known) {
+    known.tables.resize(experiment.measurements.size());
+    for (std::size_t table = 0; table < known.tables.size(); ++table) {
+        if (known.tables[table].source == ErrorSource::noise) {
+            known.tables[table] = errors_of(experiment.measurements[table], noise);
         }
     }
+    estimate_sample_effect(noise, stated.sample, known);
+    return known;
 }
 
 }  // namespace coagula::diagnose

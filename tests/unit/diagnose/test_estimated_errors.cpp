@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "noise/data_set.hpp"
+
 #include <coagula/common/random.hpp>
-#include <coagula/diagnose/stated_errors.hpp>
+#include <coagula/diagnose/noise.hpp>
 
 #include <gtest/gtest.h>
 
@@ -33,28 +35,31 @@ Experiment apart() {
     return experiment;
 }
 
-TEST(StatedErrors, AreInProportionToTheLevelOfTheirSample) {
+TEST(EstimatedErrors, AreInProportionToTheLevelOfTheirSample) {
     Experiment experiment = apart();
     const std::vector<NoiseModel> models = noise_of_tables(experiment.measurements);
     ASSERT_EQ(models.size(), 1U);
-    state_errors(experiment, models);
+    const ErrorSpec errors = estimated_errors(experiment, models);
     for (std::size_t sample = 0; sample < offsets.size(); ++sample) {
-        const Column& storage = *find_column(experiment.measurements[sample], "storage_modulus");
-        ASSERT_EQ(storage.standard_errors.size(), rows);
-        for (const double error : storage.standard_errors) {
+        const ColumnErrors& storage = *find_errors(errors, sample, "storage_modulus");
+        ASSERT_EQ(storage.deviations.size(), rows);
+        for (const double error : storage.deviations) {
             // 78 degrees of freedom: 8 %; the levels of a row and of a sample 1.2 % and 0.3 %.
             EXPECT_NEAR(error / (20 * offsets[sample]), 1, 0.25) << "sample " << sample;
         }
     }
 }
 
-TEST(StatedErrors, OfTheTableAreKept) {
+TEST(EstimatedErrors, OfTheTableAreKept) {
     Experiment experiment = apart();
     experiment.measurements[1].columns[1].standard_errors.assign(rows, 7.0);
     const NoiseModel model = fit_noise(find_replicates(experiment.measurements).front());
-    state_errors(experiment, {model});
-    EXPECT_EQ(experiment.measurements[1].columns[1].standard_errors, std::vector<double>(rows, 7.0));
-    EXPECT_EQ(experiment.measurements[0].columns[1].standard_errors.size(), rows);
+    const ErrorSpec errors = estimated_errors(experiment, {model});
+    EXPECT_EQ(find_errors(errors, 1, "storage_modulus"), nullptr);
+    const DataSet data = data_set_of(experiment, errors);
+    EXPECT_EQ(data.noise.deviation.segment(static_cast<Index>(rows), static_cast<Index>(rows)),
+              Eigen::VectorXd::Constant(static_cast<Index>(rows), 7.0));
+    EXPECT_EQ(find_errors(errors, 0, "storage_modulus")->deviations.size(), rows);
 }
 
 /// A frequency sweep on a sample of its own, elastic but for an error of the phase.
@@ -68,57 +73,57 @@ Measurement lone_sweep() {
     return table;
 }
 
-TEST(StatedErrors, OfATableWithoutReplicatesAreThoseOfTheOthers) {
+TEST(EstimatedErrors, OfATableWithoutReplicatesAreThoseOfTheOthers) {
     Experiment experiment = apart();
     experiment.measurements.push_back(lone_sweep());
-    state_errors(experiment, noise_of_tables(experiment.measurements));
-    const Measurement& lone = experiment.measurements.back();
-    for (const double error : lone.columns[1].standard_errors) {
+    const ErrorSpec errors = estimated_errors(experiment, noise_of_tables(experiment.measurements));
+    for (const double error : find_errors(errors, 3, "storage_modulus")->deviations) {
         EXPECT_NEAR(error / 60, 1, 0.25);  // 2 % of 3000 Pa
     }
-    for (const double error : lone.columns[2].standard_errors) {
+    for (const double error : find_errors(errors, 3, "loss_modulus")->deviations) {
         EXPECT_NEAR(error, 15, 1);  // nothing tells but the stated error of the phase, 0.005 of 3000 Pa
     }
 }
 
 /// A first row that is far too small has the error of the next, not the smallest of all; one that is less so has its own.
-TEST(StatedErrors, OfAFirstRowFarBelowTheNextAreTheirs) {
+TEST(EstimatedErrors, OfAFirstRowFarBelowTheNextAreTheirs) {
     for (const double factor : {0.1, 0.6}) {
         Experiment experiment = apart();
         Measurement sweep = lone_sweep();
         sweep.columns[1].values[0] *= factor;
         experiment.measurements.push_back(sweep);
-        state_errors(experiment, noise_of_tables(experiment.measurements));
-        const std::vector<double>& errors = experiment.measurements.back().columns[1].standard_errors;
+        const ErrorSpec spec = estimated_errors(experiment, noise_of_tables(experiment.measurements));
+        const std::vector<double>& errors = find_errors(spec, 3, "storage_modulus")->deviations;
         EXPECT_NEAR(errors[0] / errors[1], factor < 0.5 ? 1 : factor, 0.02) << factor;
     }
 }
 
 /// Where the moduli rise in proportion to the frequency the ends are as expected.
-TEST(StatedErrors, OfSteepEndsAreTheirOwn) {
+TEST(EstimatedErrors, OfSteepEndsAreTheirOwn) {
     Experiment experiment = apart();
     Measurement sweep = lone_sweep();
     sweep.columns[1].values = {100, 300, 900, 2700, 8100};
     sweep.columns[2].values = {1, 3, 9, 27, 81};
     experiment.measurements.push_back(sweep);
-    state_errors(experiment, noise_of_tables(experiment.measurements));
-    const std::vector<double>& errors = experiment.measurements.back().columns[1].standard_errors;
+    const ErrorSpec spec = estimated_errors(experiment, noise_of_tables(experiment.measurements));
+    const std::vector<double>& errors = find_errors(spec, 3, "storage_modulus")->deviations;
     for (std::size_t row = 0; row + 1 < errors.size(); ++row) {
         EXPECT_NEAR(errors[row + 1] / errors[row], 3, 1e-9);
     }
 }
 
-TEST(StatedErrors, OfAFluidAreThoseOfTheTorque) {
+TEST(EstimatedErrors, OfAFluidAreThoseOfTheTorque) {
     Experiment experiment = apart();
     Measurement oil = lone_sweep();
     oil.fluid_viscosity = 3;
     oil.columns = {oil.columns[0], {"loss_modulus", "Pa", {3, 6, 12, 24, 48}}};
     experiment.measurements.push_back(oil);
-    state_errors(experiment, noise_of_tables(experiment.measurements));
+    const ErrorSpec errors = estimated_errors(experiment, noise_of_tables(experiment.measurements));
     const Column& loss = experiment.measurements.back().columns[1];
-    ASSERT_EQ(loss.standard_errors.size(), loss.values.size());
+    const ColumnErrors& of_loss = *find_errors(errors, 3, "loss_modulus");
+    ASSERT_EQ(of_loss.deviations.size(), loss.values.size());
     for (std::size_t row = 0; row < loss.values.size(); ++row) {
-        EXPECT_NEAR(loss.standard_errors[row] / (0.02 * loss.values[row]), 1, 0.25);
+        EXPECT_NEAR(of_loss.deviations[row] / (0.02 * loss.values[row]), 1, 0.25);
     }
 }
 
