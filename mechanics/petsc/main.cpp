@@ -5,6 +5,7 @@
 #include "shared_vector.hpp"
 #include "solve.hpp"
 
+#include <coagula/common/blas_kernels.hpp>
 #include <coagula/common/blas_threads.hpp>
 
 #include <omp.h>
@@ -59,6 +60,7 @@ void solve_file(const std::string& problem_path, const std::string& solution_pat
 }  // namespace
 
 int main(int count, char** words) {
+    coagula::take_newest_blas_kernels();
     if (std::getenv("OMP_NUM_THREADS") == nullptr) {
         omp_set_num_threads(1);  // one process for each core
     }

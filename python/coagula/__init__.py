@@ -15,12 +15,17 @@ Examples
 """
 
 import os as _os
+import threading as _threading
 
 # As the program does: threads that wait for each other spin only for some microseconds before they sleep. libgomp reads this once.
 if "OMP_WAIT_POLICY" not in _os.environ:
     _os.environ.setdefault("GOMP_SPINCOUNT", "3000")
 
-from ._coagula import Bonds, InputError, Packing
+from ._coagula import Bonds, InputError, Packing, take_newest_blas_kernels as _take_newest_blas_kernels
+
+if _threading.active_count() == 1:  # another thread may be multiplying with the kernels that numpy shares
+    _take_newest_blas_kernels()
+
 from ._calls import (calibrate, characterize, compare_heterogeneity, diagnose, find_contacts, fit_degree_of_heterogeneity,
                      fit_power_law, generate_brownian, generate_vem, shear)
 from ._datasets import DataSet, open_dataset

@@ -3,6 +3,7 @@
 #include "running.hpp"
 #include "values.hpp"
 
+#include <coagula/common/blas_kernels.hpp>
 #include <coagula/common/checks.hpp>
 #include <coagula/io/standard_descriptors.hpp>
 
@@ -49,6 +50,7 @@ void define_exceptions(py::module_& module) {
 PYBIND11_MODULE(_coagula, module) {
     coagula::io::occupy_standard_descriptors();
     coagula::python::prepare_for_forks();
+    module.def("take_newest_blas_kernels", &coagula::take_newest_blas_kernels);
     coagula::python::define_exceptions(module);
     coagula::python::define_values(module);
     coagula::python::define_stages(module);

@@ -6,6 +6,7 @@
 #include "report.hpp"
 #include "verbs.hpp"
 
+#include <coagula/common/blas_kernels.hpp>
 #include <coagula/common/failures.hpp>
 #include <coagula/common/parallel.hpp>
 #include <coagula/common/spelling.hpp>
@@ -186,6 +187,7 @@ int main(int argc, char** argv) {
     using namespace coagula::tools;
     coagula::io::occupy_standard_descriptors();
     restart_with_thread_settings(argv);
+    coagula::take_newest_blas_kernels();
     install_signal_handlers();
     std::set_terminate(coagula::end_with_sentence);
     try {
