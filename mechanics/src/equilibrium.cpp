@@ -25,7 +25,7 @@ constexpr int most_corrections = 30;
 constexpr std::size_t trust = 8;     // corrections within which they must halve
 constexpr int most_updates = 10;     // of the factor, before the contacts are left as they are
 constexpr int easy_corrections = 4;  // solutions with a good factor
-constexpr int worth_a_factor = 30;   // a factorisation takes as long as so many solutions
+constexpr int worth_a_factor = 60;   // a factorisation takes as long as some 50 solutions
 constexpr std::size_t patience = 4;  // Newton iterations within which the correction must halve
 
 double longest(const Motion& motion) {
