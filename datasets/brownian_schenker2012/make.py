@@ -27,7 +27,7 @@ RADIUS, VOLUME_FRACTION, SEED = "0.25um", "0.4", "1"
 FITTED_STOP_TIME = {0: 3.06, 12: 6.59, 13: 9.36, 14: 38.1, 15: 247.5}
 PUBLISHED_COORDINATION = {0: 4.52, 12: 4.84, 13: 4.75, 14: 5.08, 15: 4.97}
 # One stop rule for all: half of the diffusion time R^2/D. Stiffnesses are 4e4 kB T/R^2.
-STICKING = ["--tangential-stiffness", "2.59mN/m", "--stop-time", "36.4ms"]
+STICKING = ["--contact-shear-stiffness", "2.59mN/m", "--stop-time", "36.4ms"]
 CONTACT_LAWS = {"sticking": STICKING, "slipping": [*STICKING, "--friction", "0.3"], "rolling": [*STICKING, "--rolling-stiffness", "2.59mN/m"]}
 COLUMNS = ["surface_potential_mV", "particles", "law", "time_ms", "doh_a", "coordination", "G_Pa", "G_spread_Pa", "seconds"]
 

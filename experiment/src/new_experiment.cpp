@@ -68,7 +68,7 @@ public:
     explicit Writer(const std::string& folder) : folder_(folder.empty() ? "." : folder) {}
 
     std::string write(const std::vector<RecognisedFile>& files) {
-        text_ += comment("Made from the exports below by coagula diagnose --new. coagula diagnose --check says what is in it.");
+        text_ += comment("Made from the exports below by coagula diagnose new. coagula diagnose check says what is in it.");
         text_ += comment(
             "Lines that begin with # are suggestions: remove the # of those that hold. All keys: "
             "docs/reference/experiment-file.md.");

@@ -239,7 +239,7 @@ ColumnRules assumed_units(const io::PlainTable& table) {
     return rules;
 }
 
-/// Why a table of this kind would not pass `--check`; empty where it would.
+/// Why a table of this kind would not pass `diagnose check`; empty where it would.
 std::string problem_of(Measurement measurement, const diagnose::Instrument& instrument) {
     try {
         diagnose::derive_viscosity(measurement);

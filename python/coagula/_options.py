@@ -5,6 +5,7 @@ import difflib
 import inspect
 import numbers
 import os
+import warnings
 
 import numpy as np
 
@@ -33,11 +34,24 @@ def _plain(value):
         raise TypeError(f"{value!r} is neither a number nor a text, nor a list of them") from None
 
 
+def _present_name(verb, name, given):
+    """The name that an argument has now; old ones are warned of."""
+    for option in VERBS[verb]["options"]:
+        if option["former_name"] and argument(option["former_name"]) == name:
+            now = argument(option["name"])
+            if now in given:
+                raise TypeError(f"{name} is the old name of {now}: give one of them")
+            warnings.warn(f"{name} is called {now} now; the old name works until version 2", FutureWarning, stacklevel=4)
+            return now
+    return name
+
+
 def values(verb, given, threads=None):
     """The options given, by the names of the program; None and False leave an option out."""
     known = {argument(option["name"]): option for option in VERBS[verb]["options"]}
     result = {}
-    for name, value in given.items():
+    for written, value in given.items():
+        name = _present_name(verb, written, given)
         if name not in known:
             near = difflib.get_close_matches(name, known, n=1)
             raise TypeError(f"{verb}() has no argument '{name}'" + (f"; did you mean '{near[0]}'?" if near else ""))

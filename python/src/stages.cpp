@@ -31,7 +31,7 @@ using Words = std::vector<std::string>;
 
 /// What `characterize --compare` does; nothing else goes with it.
 Verb comparison() {
-    Verb verb = in_memory(stages::characterize_verb(), {"compare", "only", "position-noise", "noise-replicas", "samples"});
+    Verb verb = in_memory(stages::characterize_verb(), {"compare", "only", "position-noise", "realizations", "samples"});
     verb.name = "compare heterogeneity";
     verb.summary = "which of two structures is more heterogeneous, by three measures";
     verb.notes.clear();
@@ -79,7 +79,7 @@ py::dict table_of_verbs() {
                                     py::arg("placeholder") = option.placeholder, py::arg("meaning") = option.meaning,
                                     py::arg("unit") = option.unit, py::arg("default") = option.fallback,
                                     py::arg("range") = option.range.text(), py::arg("choices") = option.choices,
-                                    py::arg("required") = option.required));
+                                    py::arg("required") = option.required, py::arg("former_name") = option.former_name));
         }
         table[name.c_str()] =
             py::dict(py::arg("summary") = verb.summary, py::arg("options") = options, py::arg("notes") = verb.notes);

@@ -65,8 +65,8 @@ METHODS = {"dem": "shear packing.h5 -o made.h5 --method dem --orientation xy --o
 # What an option needs beside it to have any effect.
 COMPANIONS = {"yukawa-energy": "--yukawa-length 1nm", "yukawa-length": "--yukawa-energy 1e-20J", "gravity": "--density-difference 1000",
               "density-difference": "--gravity 10", "shear-amplitude": "--shear-frequency 1kHz",
-              "shear-frequency": "--shear-amplitude 0.01", "friction": "--tangential-stiffness 1", "rolling-stiffness": "--tangential-stiffness 1",
-              "rolling-friction": "--tangential-stiffness 1 --rolling-stiffness 1", "plateau-time": "--stop-plateau mean-gap",
+              "shear-frequency": "--shear-amplitude 0.01", "friction": "--contact-shear-stiffness 1", "rolling-stiffness": "--contact-shear-stiffness 1",
+              "rolling-friction": "--contact-shear-stiffness 1 --rolling-stiffness 1", "plateau-time": "--stop-plateau mean-gap",
               "plateau-change": "--stop-plateau mean-gap", "checkpoint-interval": "--checkpoint state.h5",
               "depth": "--law depletion --size-ratio 0.1", "polymer-concentration": "--law depletion --size-ratio 0.1",
               "attraction-range": "--law depletion --depth 5", "size-ratio": "--law depletion --depth 5",

@@ -57,7 +57,7 @@ class ProgramTest(unittest.TestCase):
     def refuse_experiment(self, says=(), may_say_nan=False):
         """Expects that a diagnosis of experiment.toml and --check end with the same sentence."""
         sentence = self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", says=says, may_say_nan=may_say_nan)
-        self.assertEqual(self.fail_with(2, "diagnose", "--check", "experiment.toml", may_say_nan=may_say_nan), sentence)
+        self.assertEqual(self.fail_with(2, "diagnose", "check", "experiment.toml", may_say_nan=may_say_nan), sentence)
 
     def check_sentence(self, text, says=(), may_say_nan=False):
         self.assertRegex(text, r"\Acoagula: \S[^\n]*\n\Z")

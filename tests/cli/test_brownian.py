@@ -65,7 +65,7 @@ class Runs(ProgramTest):
             self.assertEqual(one[name], two[name], name)
 
     def test_rough_contacts_levels_and_heterogeneity(self):
-        rough = ["--tangential-stiffness", "6mN/m", "--friction", "0.3", "--rolling-stiffness", "3mN/m", "--rolling-friction", "0.1"]
+        rough = ["--contact-shear-stiffness", "6mN/m", "--friction", "0.3", "--rolling-stiffness", "3mN/m", "--rolling-friction", "0.1"]
         made = self.succeed_json(*SUSPENSION, *rough, "--surface-potential", "0", "--stop-plateau", "coordination", "--plateau-time",
                                  "0.3ms", "--plateau-change", "0.1", "--stop-time", "20ms", "--snapshots", "0.2ms",
                                  "--heterogeneity", "-o", "b.h5")
@@ -100,7 +100,7 @@ class Runs(ProgramTest):
 
 
 class Restart(ProgramTest):
-    LONG = [*SUSPENSION, "--surface-potential", "12mV", "--stop-time", "3ms", "--tangential-stiffness", "6mN/m", "--friction", "0.3",
+    LONG = [*SUSPENSION, "--surface-potential", "12mV", "--stop-time", "3ms", "--contact-shear-stiffness", "6mN/m", "--friction", "0.3",
             "--rolling-stiffness", "3mN/m"]
 
     def test_killed_runs_go_on_to_the_same_bytes(self):
@@ -242,7 +242,7 @@ class Refusals(ProgramTest):
                            (["--integrator", "euler", "--time-step", "1us"], "stable up to"),
                            (["--volume-fraction", "0.7"], "--volume-fraction"),
                            (["--equilibrium-gap", "90nm"], "contact"),
-                           (["--friction", "0.3"], "--tangential-stiffness"),
+                           (["--friction", "0.3"], "--contact-shear-stiffness"),
                            (["--gravity", "9.81m/s2"], "density difference"),
                            (["--stop-plateau", "energy"], "--stop-plateau"),
                            (["--yukawa-energy", "1e-20J"], "--yukawa-length"),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""coagula diagnose --check on the exports of a real instrument: cement paste in large and in small oscillations."""
+"""coagula diagnose check on the exports of a real instrument: cement paste in large and in small oscillations."""
 
 import math
 import os
@@ -21,7 +21,7 @@ class CementPaste(ProgramTest):
         for path in CEMENT.glob("*.csv"):
             (self.folder / path.name).symlink_to(path.resolve())
         self.write("experiment.toml", example)
-        self.found = self.succeed_json("diagnose", "--check", "experiment.toml")
+        self.found = self.succeed_json("diagnose", "check", "experiment.toml")
 
     def test_columns_and_rows(self):
         kinds = [(table["kind"], table["rows"]) for table in self.found["measurements"]]

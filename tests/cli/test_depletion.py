@@ -123,7 +123,7 @@ class Refusals(ProgramTest):
                             ([*ATTRACTION, "--polymer-concentration", "1"], "but not both"),
                             ([*LAW, "--depth", "1e-20J", "--size-ratio", "0.1"], "has another dimension than the expected unit kT"),
                             ([*ATTRACTION, "--surface-potential", "0"], "--surface-potential is not read with --law depletion"),
-                            ([*ATTRACTION, "--tangential-stiffness", "1N/m"], "--tangential-stiffness is not read with --law depletion"),
+                            ([*ATTRACTION, "--contact-shear-stiffness", "1N/m"], "--contact-shear-stiffness is not read with --law depletion"),
                             ([*ATTRACTION, "--equilibration-potential", "9mV"], "--equilibration-potential is not read"),
                             ([*ATTRACTION, "--contact-stiffness", "1uN/m"], "softer than the attraction's well"),
                             ([*LAW, "--depth", "5", "--attraction-range", "0.4um"], "0.8 radii of the particles"),

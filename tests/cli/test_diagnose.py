@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""coagula diagnose --check: what an experiment file says, what the data checks find, and every bad input refused by one sentence."""
+"""coagula diagnose check: what an experiment file says, what the data checks find, and every bad input refused by one sentence."""
 
 import math
 import unittest
@@ -29,7 +29,7 @@ SWEEP = 'kind = "amplitude-sweep"\nfile = "sweep.csv"'
 
 class Check(ProgramTest):
     def found(self, text):
-        return self.succeed_json("diagnose", "--check", self.write("experiment.toml", text))
+        return self.succeed_json("diagnose", "check", self.write("experiment.toml", text))
 
     def test_reads_converts_and_reports(self):
         self.write("sweep.csv", sweep())
@@ -42,7 +42,7 @@ class Check(ProgramTest):
         self.assertAlmostEqual(columns["angular_frequency"]["max"], 2 * math.pi)
         self.assertFalse(found["noise"][0]["rows_estimated"])
         self.assertIn("no replicates", found["noise"][0]["statement"])
-        self.assertIn("amplitude-sweep", self.succeed("diagnose", "--check", "experiment.toml"))
+        self.assertIn("amplitude-sweep", self.succeed("diagnose", "check", "experiment.toml"))
 
     def test_a_slipped_separator_is_listed_and_left_out(self):
         lines = sweep().splitlines()
@@ -170,7 +170,7 @@ class Check(ProgramTest):
         self.assertIn("storage_modulus", columns('without = "strain"'))
         self.assertNotIn("loss_modulus", columns('without = ["loss_modulus", "strain"]'))
         self.write("experiment.toml", experiment('kind = "frequency-sweep"\nfile = "raw.csv"\nwithout = "viscosity"', before=plates))
-        self.fail_with(2, "diagnose", "--check", "experiment.toml", says="no column 'viscosity' to do without")
+        self.fail_with(2, "diagnose", "check", "experiment.toml", says="no column 'viscosity' to do without")
 
     def test_what_the_stress_was_set_for_is_said(self):
         sizes = [100 + 10 * k for k in range(8)]
@@ -179,7 +179,7 @@ class Check(ProgramTest):
         self.assertIn("the stress is taken for what was set", " ".join(self.found(experiment(text))["notes"]))
         self.assertNotIn("what was set", " ".join(self.found(experiment(text + 'control = "strain"'))["notes"]))
         self.write("experiment.toml", experiment(text + 'control = "torque"'))
-        self.fail_with(2, "diagnose", "--check", "experiment.toml", says="'torque' is neither stress nor strain")
+        self.fail_with(2, "diagnose", "check", "experiment.toml", says="'torque' is neither stress nor strain")
 
     def test_trios_steps_are_chosen_by_section_and_result(self):
         rows = "".join(f"{10 ** (0.5 * i)}\t{100 + i}\t{10}\n" for i in range(6))
@@ -191,7 +191,7 @@ class Check(ProgramTest):
             self.assertEqual(table["rows"], 6)
             self.assertAlmostEqual({c["name"]: c for c in table["columns"]}["storage_modulus"]["max"], 105e3)
         self.write("experiment.toml", experiment(keys))
-        self.fail_with(2, "diagnose", "--check", "experiment.toml", says="several sections fit")
+        self.fail_with(2, "diagnose", "check", "experiment.toml", says="several sections fit")
 
 
 class BadInput(ProgramTest):
@@ -235,13 +235,13 @@ class BadInput(ProgramTest):
         other = "\n".join(",".join(f"{cell:.4g}" for cell in (row[0], 1.004 * row[1], 1.004 * row[2], 1.004 * row[3])) for row in cells)
         self.write("copy.csv", f"{head}\n{other}\n")
         self.write("experiment.toml", experiment(SWEEP, 'kind = "amplitude-sweep"\nfile = "copy.csv"\nsample = "B"'))
-        self.assertEqual(len(self.succeed_json("diagnose", "--check", "experiment.toml")["measurements"]), 2)
+        self.assertEqual(len(self.succeed_json("diagnose", "check", "experiment.toml")["measurements"]), 2)
 
     def test_what_no_amplitude_and_no_modulus_can_be(self):
         text = "frequency [Hz],strain [1],storage modulus [Pa]\n" + "".join(f"{k},{(-1) ** k},{'1e300' if k == 4 else 500 + k}\n" for k in range(1, 9))
         self.write("sweep.csv", text)
         self.write("experiment.toml", experiment(SWEEP.replace("amplitude", "frequency")))
-        (table,) = self.succeed_json("diagnose", "--check", "experiment.toml")["measurements"]
+        (table,) = self.succeed_json("diagnose", "check", "experiment.toml")["measurements"]
         cells = {(cell["column"], cell["row"]) for cell in table["left_out"]}
         self.assertEqual(cells, {("storage_modulus", 4), *(("strain", row) for row in (1, 3, 5, 7))})
 
@@ -249,12 +249,12 @@ class BadInput(ProgramTest):
         twice = "strain [%],storage modulus [Pa],storage modulus [Pa]\n" + "".join(f"{i},{500 + i},{500 + i}\n" for i in range(1, 9))
         self.write("sweep.csv", twice)
         self.write("experiment.toml", experiment(SWEEP))
-        self.assertEqual(self.succeed_json("diagnose", "--check", "experiment.toml")["measurements"][0]["rows"], 8)
+        self.assertEqual(self.succeed_json("diagnose", "check", "experiment.toml")["measurements"][0]["rows"], 8)
 
     def test_lines_may_end_by_carriage_returns_alone(self):
         self.write("sweep.csv", sweep().replace("\n", "\r"))
         self.write("experiment.toml", experiment(SWEEP))
-        self.assertEqual(self.succeed_json("diagnose", "--check", "experiment.toml")["measurements"][0]["rows"], 8)
+        self.assertEqual(self.succeed_json("diagnose", "check", "experiment.toml")["measurements"][0]["rows"], 8)
 
     def test_waveforms(self):
         wave = [f"{k / 64},{0.01 * math.sin(2 * math.pi * k / 64)},{10 * math.sin(2 * math.pi * k / 64 + 0.1)}" for k in range(64)]
@@ -315,10 +315,10 @@ class BadInput(ProgramTest):
                 self.refuse(text, says)
 
     def test_files(self):
-        self.fail_with(2, "diagnose", "--check", "absent.toml", says="absent.toml")
-        self.fail_with(2, "diagnose", "--check", self.folder, says="cannot be read")
+        self.fail_with(2, "diagnose", "check", "absent.toml", says="absent.toml")
+        self.fail_with(2, "diagnose", "check", self.folder, says="cannot be read")
         self.write("experiment.toml", experiment(SWEEP))
-        self.fail_with(2, "diagnose", "experiment.toml", says="--check")
+        self.fail_with(2, "diagnose", "experiment.toml", says="'diagnose check'")
 
     def test_options_that_would_not_be_heeded(self):
         self.write("experiment.toml", experiment(SWEEP))

@@ -155,7 +155,7 @@ class Diagnosis(ProgramTest):
         self.refuse_experiment("copy.h5: the same particles as in")
         self.write("experiment.toml", EXPERIMENT.replace('[structures]\nfiles = ["packing.h5"]\n', ""))
         self.fail_with(2, "diagnose", "experiment.toml", "-o", "results", says="experiment.toml: [structures] gives no structures")
-        self.assertIn("names no structures yet", self.succeed("diagnose", "--check", "experiment.toml"))
+        self.assertIn("names no structures yet", self.succeed("diagnose", "check", "experiment.toml"))
         self.fail_with(2, "diagnose", "experiment.toml", "-o", "sweep.csv", says="is not a folder")
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Exports of real instruments, from coagula diagnose --new to --check: what is taken over, chosen, left out and said."""
+"""Exports of real instruments, from coagula diagnose new to diagnose check: what is taken over, chosen, left out and said."""
 
 import os
 import subprocess
@@ -21,8 +21,8 @@ JAPANESE = DATA / "rheoplus_japanese/datafile.csv"
 class NewExperiment(ProgramTest):
     def accepted(self, *exports):
         """The kinds of an experiment that is made of exports and accepted as it stands."""
-        self.succeed("diagnose", "--new", *exports, "-o", "e.toml")
-        return [table["kind"] for table in self.succeed_json("diagnose", "--check", "e.toml")["measurements"]]
+        self.succeed("diagnose", "new", *exports, "-o", "e.toml")
+        return [table["kind"] for table in self.succeed_json("diagnose", "check", "e.toml")["measurements"]]
 
     def test_rheoplus(self):
         kinds = self.accepted(GELS / "TXT_N2.csv", GELS / "PXP_N1.csv")
@@ -47,34 +47,34 @@ class NewExperiment(ProgramTest):
     def test_old_workbook(self):
         kinds = self.accepted(DATA / "rheofit_flow/trios_xls/10sle1s_85castoroil-3.xls")
         self.assertEqual(kinds, ["amplitude-sweep", "flow-curve"])
-        taken = {value["name"]: value for value in self.succeed_json("diagnose", "--check", "e.toml")["taken_over"]}
+        taken = {value["name"]: value for value in self.succeed_json("diagnose", "check", "e.toml")["taken_over"]}
         self.assertEqual((taken["inner_radius"]["value"], taken["inner_radius"]["unit"]), (0.014, "m"))
         self.assertEqual({value["fate"] for value in taken.values()}, {"taken over"})
 
     def test_what_cannot_be_diagnosed_is_refused(self):
         self.write("rates.csv", "time [s],shear rate [1/s]\n" + "".join(f"{k},{10 * k}\n" for k in range(1, 9)))
         for options in ((), ("--json",), ("-o", "e.toml")):
-            self.fail_with(2, "diagnose", "--new", "rates.csv", *options, says=("rates.csv: the table cannot be diagnosed as it is: table 1: a flow curve or steps",
+            self.fail_with(2, "diagnose", "new", "rates.csv", *options, says=("rates.csv: the table cannot be diagnosed as it is: table 1: a flow curve or steps",
                                                                           "there is no storage modulus"))
-        self.fail_with(2, "diagnose", "--new", "rates.csv", DATA / "drilling_suspensions/RheogramSet.txt", "-o", "e.toml",
+        self.fail_with(2, "diagnose", "new", "rates.csv", DATA / "drilling_suspensions/RheogramSet.txt", "-o", "e.toml",
                        says=("none of the 386 tables can be diagnosed as it is", "table 1 of ", "; ..."))
-        self.succeed("diagnose", "--new", "rates.csv", JAPANESE, "-o", "e.toml")  # one that can be used is enough
-        self.fail_with(3, "diagnose", "--new", JAPANESE, "-o", "e.toml", says="e.toml")  # is there already
+        self.succeed("diagnose", "new", "rates.csv", JAPANESE, "-o", "e.toml")  # one that can be used is enough
+        self.fail_with(3, "diagnose", "new", JAPANESE, "-o", "e.toml", says="e.toml")  # is there already
 
     def test_flow_curves_are_of_an_oil(self):
         self.assertEqual(self.accepted(LINSEED), 12 * ["flow-curve"])
         self.assertIn('\nkind = "newtonian"', (self.folder / "e.toml").read_text())
 
     def test_prints_without_a_file_to_write(self):
-        printed = self.succeed("diagnose", "--new", JAPANESE)
+        printed = self.succeed("diagnose", "new", JAPANESE)
         self.write("e.toml", printed)
-        self.assertEqual(len(self.succeed_json("diagnose", "--check", "e.toml")["measurements"]), 25)
+        self.assertEqual(len(self.succeed_json("diagnose", "check", "e.toml")["measurements"]), 25)
 
     def test_names_that_toml_must_quote(self):
         for name in ('a "b" c.csv', "back\\slash.csv", "tab\tand\nline.csv", "a\x7fb\x1b.csv", "\x85 c.csv"):
             self.write(name, "ω [rad/s],G' (Pa),mine [m]\n" + "".join(f"{w},{100 + w},1\n" for w in range(1, 8)))
-            self.succeed("diagnose", "--new", name, "-o", "e.toml", "--force")
-            (table,) = self.succeed_json("diagnose", "--check", "e.toml")["measurements"]
+            self.succeed("diagnose", "new", name, "-o", "e.toml", "--force")
+            (table,) = self.succeed_json("diagnose", "check", "e.toml")["measurements"]
             self.assertEqual((table["kind"], table["not_understood"]), ("frequency-sweep", ["'mine [m]'"]))
             self.assertEqual(table["sample"], name[:-len(".csv")])
             self.assertNotRegex((self.folder / "e.toml").read_text(), "[\x00-\x09\x0b-\x1f\x7f-\x9f]")
@@ -84,9 +84,9 @@ class NewExperiment(ProgramTest):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def test_bad_input(self):
-        self.fail_with(2, "diagnose", "--new", says="needs EXPERIMENT.toml")
-        self.fail_with(2, "diagnose", "--new", "absent.csv", says="absent.csv")
-        self.fail_with(2, "diagnose", "--new", DATA / XML, says="which is not read: export the measurement as text")
+        self.fail_with(2, "diagnose", "new", says="coagula diagnose new needs EXPORT")
+        self.fail_with(2, "diagnose", "new", "absent.csv", says="absent.csv")
+        self.fail_with(2, "diagnose", "new", DATA / XML, says="which is not read: export the measurement as text")
         self.fail_with(2, "diagnose", "--new", "--check", JSON, says="--check is not read with --new")
         self.fail_with(2, "diagnose", JSON, JSON, says="takes one EXPERIMENT.toml")
 
@@ -94,11 +94,11 @@ class NewExperiment(ProgramTest):
 class Selection(ProgramTest):
     def check(self, text):
         self.write("e.toml", f"[[measurement]]\n{text}\n")
-        return self.succeed_json("diagnose", "--check", "e.toml")["measurements"]
+        return self.succeed_json("diagnose", "check", "e.toml")["measurements"]
 
     def refuse(self, text, *says):
         self.write("e.toml", f"[[measurement]]\n{text}\n")
-        self.fail_with(2, "diagnose", "--check", "e.toml", says=says)
+        self.fail_with(2, "diagnose", "check", "e.toml", says=says)
 
     def test_sections_of_one_name_by_number_range_and_test(self):
         series = f'kind = "frequency-sweep"\nfile = "{JAPANESE}"\n'
@@ -136,7 +136,7 @@ class Selection(ProgramTest):
 class Metadata(ProgramTest):
     def taken(self, text):
         self.write("e.toml", text)
-        return {value["name"]: value for value in self.succeed_json("diagnose", "--check", "e.toml")["taken_over"]}
+        return {value["name"]: value for value in self.succeed_json("diagnose", "check", "e.toml")["taken_over"]}
 
     MEASUREMENT = f'[[measurement]]\nkind = "frequency-sweep"\nfile = "{JAPANESE}"\ntable = 1\n'
 
@@ -145,7 +145,7 @@ class Metadata(ProgramTest):
         self.assertEqual({name: value["value"] for name, value in taken.items()},
                          {"geometry": "plate-plate", "plate_radius": 0.004, "temperature": 433.15})
         self.assertEqual(taken["plate_radius"]["source"], f"{JAPANESE}: 測定治具 PP08-SN23708; [d=0.1 mm]")
-        self.assertIn("4 mm, from", self.succeed("diagnose", "--check", "e.toml"))
+        self.assertIn("4 mm, from", self.succeed("diagnose", "check", "e.toml"))
         taken = self.taken('[sample]\ntemperature = "20 degC"\n[instrument]\nplate_radius = "5 mm"\n' + self.MEASUREMENT)
         self.assertEqual(taken["plate_radius"]["fate"], "not taken over: [instrument] gives it")
         self.assertEqual(taken["geometry"]["fate"], "taken over")
@@ -159,7 +159,7 @@ class Metadata(ProgramTest):
             self.write(f"{number}.txt", f"[Geometry]\nDiameter\t{diameter} mm\nGeometry Inertia\t{inertia} µN.m.s²\n[step]\nA\n"
                                         f"Angular frequency\tStorage modulus\nrad/s\tPa\n{rows.replace('101', str(101 + number))}")
         self.write("e.toml", "".join(f'[[measurement]]\nkind = "frequency-sweep"\nfile = "{n}.txt"\n' for n in (0, 1)))
-        found = self.succeed_json("diagnose", "--check", "e.toml")
+        found = self.succeed_json("diagnose", "check", "e.toml")
         radii = [{c["name"]: c["max"] for c in table["columns"]}["plate_radius"] for table in found["measurements"]]
         self.assertEqual(radii, [0.0125, 0.02])
         fates = {(value["name"], value["fate"]) for value in found["taken_over"]}
@@ -168,11 +168,11 @@ class Metadata(ProgramTest):
 
     def test_empty_cells_and_flags_are_counted(self):
         self.write("e.toml", f'[[measurement]]\nkind = "amplitude-sweep"\nfile = "{GELS / "TXT_N2.csv"}"\ntable = 4\n')
-        (table,) = self.succeed_json("diagnose", "--check", "e.toml")["measurements"]
+        (table,) = self.succeed_json("diagnose", "check", "e.toml")["measurements"]
         self.assertGreater(table["flags"]["ME-"], 0)
         reasons = {cell["reason"] for cell in table["left_out"]}
         self.assertIn("stands for a negative value, as the flag ME- or MV- says", reasons)
-        said = self.succeed("diagnose", "--check", "e.toml")
+        said = self.succeed("diagnose", "check", "e.toml")
         self.assertRegex(said, r"  flags +ME- in \d+ rows")
 
 

@@ -33,7 +33,7 @@ class Refusals(ProgramTest):
         return {**os.environ, "PATH": f"{self.folder}:{os.environ['PATH']}"}
 
     def test_what_its_models_cannot_do(self):
-        for words in (["--tangential-stiffness", "1"], ["--gravity", "9.81"], ["--shear-rate", "1"],
+        for words in (["--contact-shear-stiffness", "1"], ["--gravity", "9.81"], ["--shear-rate", "1"],
                       ["--shear-amplitude", "0.1", "--shear-frequency", "1"], ["--checkpoint", "a.state"], ["--integrator", "euler"]):
             self.refuse(*words, says=f"{words[0]} is not read with --engine lammps")
         self.refuse("--size-distribution", "normal:0.1", says="LAMMPS moves particles of one radius only")

@@ -122,7 +122,7 @@ class Oil(Tables):
 
     def check(self, text):
         self.write("experiment.toml", text)
-        return self.succeed_json("diagnose", "--check", "experiment.toml")
+        return self.succeed_json("diagnose", "check", "experiment.toml")
 
     def test_refusals(self):
         text = self.gap_series(0, "")

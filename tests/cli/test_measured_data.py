@@ -64,7 +64,7 @@ class ConfocalGel(ProgramTest):
     def test_the_noise_moves_every_measure_by_a_known_amount(self):
         self.succeed("import", DATA / "silica_gel_confocal" / "peri_static.csv", "--columns", "x=xum,y=yum,z=zum", "--frame", "0",
                      "--length-unit", "1um", "--radius", "0.92um", "--open", "-o", "gel.h5")
-        noise = ["--position-noise", "5.5nm,5.5nm,7.8nm", "--noise-replicas", "3"]
+        noise = ["--position-noise", "5.5nm,5.5nm,7.8nm", "--realizations", "3"]
         self.assertIn("pores  ", self.succeed("characterize", "gel.h5", *noise))
         found = self.succeed_json("characterize", "gel.h5", *noise, "--force", "-o", "out.h5")
         shift, error = (dict(numbers_in(found["noise"][part])) for part in ("shift", "shift_error"))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""coagula diagnose --new proposes what --check accepts: derived moduli, units, stepped sweeps, clocks, tables side by side, shifted columns."""
+"""coagula diagnose new proposes what diagnose check accepts: derived moduli, units, stepped sweeps, clocks, tables side by side, shifted columns."""
 
 import math
 import os
@@ -31,9 +31,9 @@ def phase(omega):
 class Proposals(ProgramTest):
     def proposed(self, *exports):
         """The measurements of an experiment that --check accepts as it stands."""
-        self.succeed("diagnose", "--new", *exports, "-o", "e.toml", "--force")
+        self.succeed("diagnose", "new", *exports, "-o", "e.toml", "--force")
         self.text = (self.folder / "e.toml").read_text()
-        self.found = self.succeed_json("diagnose", "--check", "e.toml")
+        self.found = self.succeed_json("diagnose", "check", "e.toml")
         return self.found["measurements"]
 
     def ranges(self, table):
@@ -62,11 +62,11 @@ class DerivedModuli(Proposals):
     def test_what_is_missing_is_named(self):
         rows = "".join(f"{omega:.6g},{storage(omega):.6g}\n" for omega in OMEGAS)
         self.write("s.csv", "ω [rad/s],Steifigkeit [Pa]\n" + rows)
-        self.fail_with(2, "diagnose", "--new", "s.csv", says=(
+        self.fail_with(2, "diagnose", "new", "s.csv", says=(
             "s.csv: the table cannot be diagnosed as it is: table 1: an oscillation: there is neither a storage modulus nor |G*|",
             "not understood: 'Steifigkeit [Pa]'", 'columns = { storage_modulus = "Steifigkeit [Pa]" }'))
         self.write("s.csv", "ω [rad/s],G' [Pa],G'' [Pa]\n" + "".join(f"{omega:.6g},---,1\n" for omega in OMEGAS))
-        self.fail_with(2, "diagnose", "--new", "s.csv", says="the column 'G'' holds no number")
+        self.fail_with(2, "diagnose", "new", "s.csv", says="the column 'G'' holds no number")
 
 
 class Units(Proposals):
@@ -81,21 +81,21 @@ class Units(Proposals):
         self.assertIn("s.csv: the column 'Temperature' names no unit and is not used", self.found["notes"])
         self.assertIn("# without a unit, and not used: 'Temperature', 'Torque'", self.text)
         self.sweep("ω [rad/s],G' [Pa],G''")
-        self.fail_with(2, "diagnose", "--new", "s.csv", says='column \'G\'\'\' names no unit; it must be one that converts into Pa')
+        self.fail_with(2, "diagnose", "new", "s.csv", says='column \'G\'\'\' names no unit; it must be one that converts into Pa')
         self.write("e.toml", '[[measurement]]\nkind = "frequency-sweep"\nfile = "s.csv"\ncolumns = { loss_modulus = "G\'\' [kPa]" }\n')
-        (table,) = self.succeed_json("diagnose", "--check", "e.toml")["measurements"]
+        (table,) = self.succeed_json("diagnose", "check", "e.toml")["measurements"]
         self.assertAlmostEqual(self.ranges(table)["loss_modulus"][1], 1e3 * loss(100))
 
     def test_units_that_no_column_names_are_assumed_where_all_can_see_it(self):
         self.sweep("omega,Gp,Gpp")
-        said = self.succeed("diagnose", "--new", "s.csv", "-o", "e.toml")
+        said = self.succeed("diagnose", "new", "s.csv", "-o", "e.toml")
         self.assertIn("assumed for 1 tables whose file names none", said)
         (table,) = self.proposed("s.csv")
         self.assertAlmostEqual(self.ranges(table)["storage_modulus"][1], storage(100))
         self.assertIn('columns = { angular_frequency = "omega [rad/s]", loss_modulus = "Gpp [Pa]", storage_modulus = "Gp [Pa]" }'
                       "    # the file names no units: CHECK these", self.text)
         self.write("s.csv", "strain,G',G''\n" + "".join(f"{k},{900 - k},{100 + k}\n" for k in range(1, 12)))
-        self.fail_with(2, "diagnose", "--new", "s.csv", says="column 'strain' names no unit")  # per cent or not
+        self.fail_with(2, "diagnose", "new", "s.csv", says="column 'strain' names no unit")  # per cent or not
 
     def test_seven_temperatures_side_by_side(self):
         tables = self.proposed(DATA / "ttw_wide_table/ttw_70.csv")
@@ -135,7 +135,7 @@ class Sweeps(Proposals):
     def test_shuffled_rows_are_no_sweeps(self):
         order = [5, 2, 9, 0, 7, 3, 11, 1, 8, 4, 10, 6]
         self.stepped("Gap [mm]", (1,), along=[OMEGAS[k] for k in order])
-        self.fail_with(2, "diagnose", "--new", "s.csv", says="the rows are in the wrong order")
+        self.fail_with(2, "diagnose", "new", "s.csv", says="the rows are in the wrong order")
 
     def test_a_clock_orders_the_runs(self):
         for name, hour in (("b", 9), ("a", 11)):
@@ -143,7 +143,7 @@ class Sweeps(Proposals):
             self.write(f"{name}.csv", "Time of Day,ω [rad/s],G' [Pa]\n" + rows)
         text = "\n".join(f'[[measurement]]\nkind = "frequency-sweep"\nfile = "{name}.csv"\nsample = "A"\n' for name in "ab")
         self.write("e.toml", text)
-        self.assertNotIn("neither run_order nor start", " ".join(self.succeed_json("diagnose", "--check", "e.toml")["notes"]))
+        self.assertNotIn("neither run_order nor start", " ".join(self.succeed_json("diagnose", "check", "e.toml")["notes"]))
         self.write("both.csv", (self.folder / "a.csv").read_text() + "\n" + (self.folder / "b.csv").read_text())
         self.assertEqual(len(self.proposed("both.csv")), 2)
         self.assertIn("# the export says when this run began", self.text)
@@ -197,9 +197,9 @@ class Assignment(Proposals):
         for name, shifted in (("left", [row[1:] + [row[0]] for row in self.rows()]), ("right", [[k + 1, *row[:-1]] for k, row in enumerate(self.rows())])):
             with self.subTest(shift=name):
                 self.table(shifted)
-                self.fail_with(2, "diagnose", "--new", "s.csv", says="the values do not stand below their headings")
+                self.fail_with(2, "diagnose", "new", "s.csv", says="the values do not stand below their headings")
                 self.write("e.toml", experiment)
-                self.fail_with(2, "diagnose", "--check", "e.toml", says=("the columns 'phase', 'complex_modulus' and 'complex_viscosity' ", "contradict the others in most rows", "without = ["))
+                self.fail_with(2, "diagnose", "check", "e.toml", says=("the columns 'phase', 'complex_modulus' and 'complex_viscosity' ", "contradict the others in most rows", "without = ["))
 
     def test_one_contradicting_column_is_left_out_and_more_by_the_user(self):
         self.table([[*row[:4], 2 * row[4], row[5]] for row in self.rows()])
@@ -208,9 +208,9 @@ class Assignment(Proposals):
         self.table([[*row[:3], 2 * row[3], 3 * row[4], row[5]] for row in self.rows()])
         experiment = '[[measurement]]\nkind = "frequency-sweep"\nfile = "s.csv"\n'
         self.write("e.toml", experiment)
-        self.fail_with(2, "diagnose", "--check", "e.toml", says='without = ["complex_modulus", "complex_viscosity"]')
+        self.fail_with(2, "diagnose", "check", "e.toml", says='without = ["complex_modulus", "complex_viscosity"]')
         self.write("e.toml", experiment + 'without = ["complex_modulus", "complex_viscosity"]\n')
-        self.assertEqual(self.succeed_json("diagnose", "--check", "e.toml")["measurements"][0]["left_out"], [])
+        self.assertEqual(self.succeed_json("diagnose", "check", "e.toml")["measurements"][0]["left_out"], [])
 
 
 if __name__ == "__main__":

@@ -43,7 +43,7 @@ class Ranges(ProgramTest):
         for line, says in (("particle_radius = 0.25", ["particle_radius", "0.25 um"]), ("temperature = 5e-324", ["temperature", "between"]),
                            ("density = 1e300", ["density", "between"])):
             self.write("e.toml", f'[sample]\n{line}\n[[measurement]]\nkind = "amplitude-sweep"\nfile = "sweep.csv"\n')
-            self.fail_with(2, "diagnose", "e.toml", "--check", says=["e.toml", *says])
+            self.fail_with(2, "diagnose", "check", "e.toml", says=["e.toml", *says])
 
     def test_a_result_that_is_no_number_is_an_error(self):
         self.write("huge.toml", "bending_stiffness = 1e300\ntwisting_stiffness = 1e300\n")

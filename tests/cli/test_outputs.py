@@ -137,7 +137,7 @@ class InputsAreKept(ProgramTest):
                             ("t.csv", ["fit", "power-law", "t.csv", "-o", "t.csv"]),
                             ("c.csv", ["import", "c.csv", "--radius", "0.5um", "--open", "-o", "c.csv"]),
                             ("m.toml", ["shear", "a.h5", "--model", "m.toml", "-o", "m.toml"]),
-                            ("f.csv", ["diagnose", "--new", "f.csv", "-o", "f.csv"]),
+                            ("f.csv", ["diagnose", "new", "f.csv", "-o", "f.csv"]),
                             ("a.h5", ["generate", "brownian", "--start", "a.h5", "--surface-potential", "0mV", "--stop-time", "1us", "-o", "a.h5"])):
             with self.subTest(words=words):
                 self.refuse(name, *words, "--force")
@@ -200,7 +200,7 @@ class MeasuresAreKept(ProgramTest):
 
     def test_nothing_of_the_older_measure_is_left(self):
         self.copy_of_measured()
-        self.succeed("characterize", "measured.h5", "--only", "rings,overlap", "--position-noise", "5nm", "--noise-replicas", "2")
+        self.succeed("characterize", "measured.h5", "--only", "rings,overlap", "--position-noise", "5nm", "--realizations", "2")
         noisy = self.results()
         self.assertIn("/characterization/noise/shift/overlap/mean", noisy)
         self.succeed("characterize", "measured.h5", "--only", "overlap")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""coagula diagnose --power: what a planned experiment could find, without any measured value."""
+"""coagula diagnose plan: what a planned experiment could find, without any measured value."""
 
 import json
 import unittest
@@ -29,7 +29,7 @@ class Power(ProgramTest):
         self.write("plan.toml", PLAN)
 
     def test_strengths_from_which_on_a_cause_is_found(self):
-        found = self.succeed_json("diagnose", "--power", "plan.toml", "-o", "power", *QUICK)
+        found = self.succeed_json("diagnose", "plan", "plan.toml", "-o", "power", *QUICK)
         causes = {cause["name"]: cause for cause in found["causes"]}
         self.assertEqual(sorted(causes), ["bond-bending", "contact-loss"])
         self.assertEqual(found["moduli"], 24)
@@ -41,28 +41,28 @@ class Power(ProgramTest):
         self.assertIsNone(causes["bond-bending"]["found_half"])
         written = json.loads((self.folder / "power" / "power.json").read_text())
         self.assertEqual(written["causes"], found["causes"])
-        self.fail_with(3, "diagnose", "--power", "plan.toml", "-o", "power", says="--force")
-        told = self.succeed("diagnose", "--power", "plan.toml", "-o", "power", "--force", *QUICK)
+        self.fail_with(3, "diagnose", "plan", "plan.toml", "-o", "power", says="--force")
+        told = self.succeed("diagnose", "plan", "plan.toml", "-o", "power", "--force", *QUICK)
         self.assertRegex(told, r"contact-loss +springpot_over_spring: found with 50 % at [0-9.]+ or more \([0-9.]+ to [0-9.]+\), with 95 % at")
         self.assertRegex(told, r"bond-bending +cannot be found: \d+ of 40")
 
     def test_a_table_without_moduli_gives_the_axis(self):
         self.write("axis.csv", "frequency [Hz]\n" + "".join(f"{0.1 * 2 ** k}\n" for k in range(8)))
         self.write("plan.toml", PLAN.split("planned")[0] + 'file = "axis.csv"\n')
-        found = self.succeed_json("diagnose", "--power", "plan.toml", "--data-sets", "20", "--diagnoses", "0", "--causes", "ageing")
+        found = self.succeed_json("diagnose", "plan", "plan.toml", "--data-sets", "20", "--diagnoses", "0", "--causes", "ageing")
         self.assertEqual((found["moduli"], len(found["causes"])), (16, 1))
 
     def test_waveforms_are_planned_as_harmonics(self):
         strains = '{ from = "0.01 %", to = "1 %", points = 8 }'
         tables = "".join(f'[[measurement]]\nkind = "{kind}"\nsample = "gel"\nplanned = {strains}\n' for kind in ("amplitude-sweep", "harmonics"))
         self.write("plan.toml", PLAN.split("[[measurement]]")[0] + tables)
-        words = ["diagnose", "--power", "plan.toml", "--data-sets", "20", "--diagnoses", "0", "--causes", "contact-nonlinearity"]
+        words = ["diagnose", "plan", "plan.toml", "--data-sets", "20", "--diagnoses", "0", "--causes", "contact-nonlinearity"]
         found = self.succeed_json(*words)
         self.assertEqual((found["moduli"], found["third_harmonics"], len(found["causes"])), (16, 16, 1))
         self.assertRegex(self.succeed(*words), r"planned +16 moduli, G' about .*Pa, 16 parts of third harmonics")
 
     def test_frequencies_may_be_planned_in_cycles(self):
-        words = ["diagnose", "--power", "plan.toml", "--data-sets", "20", "--diagnoses", "0", "--causes", "contact-loss"]
+        words = ["diagnose", "plan", "plan.toml", "--data-sets", "20", "--diagnoses", "0", "--causes", "contact-loss"]
         self.write("plan.toml", PLAN.replace("0.6 rad/s", f"{0.6 / 6.283185307179586} Hz"))
         in_cycles = self.succeed_json(*words)
         self.write("plan.toml", PLAN)
@@ -70,7 +70,7 @@ class Power(ProgramTest):
 
     def test_the_expected_modulus_sets_the_stiffness(self):
         self.write("plan.toml", PLAN + '[expected]\nstorage_modulus = "5 kPa"\n')
-        found = self.succeed_json("diagnose", "--power", "plan.toml", "--data-sets", "20", "--diagnoses", "0", "--causes", "ageing")
+        found = self.succeed_json("diagnose", "plan", "plan.toml", "--data-sets", "20", "--diagnoses", "0", "--causes", "ageing")
         self.assertEqual(found["storage_modulus"], 5000)
         self.assertLess(found["normal_stiffness"], 1)
 
@@ -87,9 +87,9 @@ class Power(ProgramTest):
         ):
             with self.subTest(new=new):
                 self.write("plan.toml", PLAN.replace(old, new))
-                self.fail_with(2, "diagnose", "--power", "plan.toml", says=says)
+                self.fail_with(2, "diagnose", "plan", "plan.toml", says=says)
         self.write("plan.toml", PLAN)
-        self.fail_with(2, "diagnose", "--power", "plan.toml", "--causes", "magic", says="'magic' is not a cause")
+        self.fail_with(2, "diagnose", "plan", "plan.toml", "--causes", "magic", says="'magic' is not a cause")
         # A plan is no measurement.
         self.fail_with(2, "diagnose", "plan.toml", "-o", "results", says="a planned table has no measured moduli")
 

@@ -54,7 +54,7 @@ class Quasistatic(ProgramTest):
 
     def test_sweep_with_breakage(self):
         self.write("model.toml", MODEL)
-        found = self.shear("--amplitudes", "1e-4,1e-3", "--down", "--orientation", "zx", "--model", "model.toml",
+        found = self.shear("--amplitudes", "1e-4,1e-3", "--reverse", "--orientation", "zx", "--model", "model.toml",
                            "--steps-per-cycle", "16")
         self.assertEqual(found["amplitude"], [1e-4, 1e-3, 1e-3, 1e-4])
         for k, amplitude in enumerate(found["amplitude"]):

@@ -61,7 +61,7 @@ class Creep(Tables):
         self.assertTrue(inertia["low"] < 20e-6 < inertia["high"], inertia)
         self.assertLess(inertia["high"] / inertia["low"], 1.6)
         self.assertIn("rows of the creep, from", found["notes"][0])
-        (table,) = self.succeed_json("diagnose", "--check", "experiment.toml")["measurements"]
+        (table,) = self.succeed_json("diagnose", "check", "experiment.toml")["measurements"]
         compared = table["compared_as"]
         self.assertEqual((compared["kind"], compared["rows_used"]), ("frequency-sweep", len(ROWS)))
         self.assertEqual(len(found["rows"]), 2 * compared["rows"])
@@ -99,7 +99,7 @@ class Relaxation(Tables):
         """By angular frequency, in tables of their own."""
         found = self.diagnosis(SMOOTH + PLATES + text)
         self.assertEqual(found["verdict"], "no-discrepancy")
-        (table,) = self.succeed_json("diagnose", "--check", "experiment.toml")["measurements"]
+        (table,) = self.succeed_json("diagnose", "check", "experiment.toml")["measurements"]
         parts = [[row["measured"] for row in found["rows"] if row["observable"] == name] for name in ("storage_modulus", "loss_modulus")]
         return {table["compared_as"]["highest_frequency"] / 10**(k / 5): complex(*both) for k, both in enumerate(zip(*parts))}
 
@@ -193,8 +193,8 @@ class BadInput(Tables):
 
 class Exports(Tables):
     def accepted(self, *exports):
-        self.succeed("diagnose", "--new", *exports, "-o", "e.toml", "--force")
-        return self.succeed_json("diagnose", "--check", "e.toml")["measurements"]
+        self.succeed("diagnose", "new", *exports, "-o", "e.toml", "--force")
+        return self.succeed_json("diagnose", "check", "e.toml")["measurements"]
 
     def test_of_instruments_are_recognised(self):
         toolkit = DATA / "rheodata_toolkit/anton_paar"

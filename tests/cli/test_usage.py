@@ -32,9 +32,9 @@ class Help(ProgramTest):
         self.assertIn("[unit N/m; default 100N/m; range 1e-12 .. 1e+15]", line)
 
     def test_the_catalogue_of_causes_is_one_table_and_list(self):
-        printed = self.succeed("diagnose", "--catalogue")
+        printed = self.succeed("diagnose", "catalogue")
         self.assertTrue(printed.startswith("| cause | what it changes | how it shows | parameters and their range |\n|---|---|---|---|\n"))
-        causes = json.loads(self.succeed("diagnose", "--catalogue", "--json"))
+        causes = json.loads(self.succeed("diagnose", "catalogue", "--json"))
         self.assertEqual(len(causes), len(printed.splitlines()) - 2)
         self.assertEqual(causes[0]["parameters"]["shear_over_normal"], {"low": 0.05, "high": 1, "unit": "1", "prior": "uniform in the logarithm"})
 
@@ -66,6 +66,60 @@ class Writing(ProgramTest):
         self.succeed("shear", "--bond-tolerance", "0.01", "m", "-o", "b.h5")
         self.succeed("shear", "--normal-stiffness", "100", "N/m", "m", "-o", "c.h5")
         self.fail_with(2, "shear", "--normal-stiffness", "100", "N/s", "m", says="N/s does not exist")
+
+
+class OldNames(ProgramTest):
+    """What had another name in an earlier version works under both, and the old one is said to be old."""
+
+    def both(self, old, new, note):
+        done = self.run_program(*old)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.check_sentence(done.stderr, note)
+        again = self.run_program(*new)
+        self.assertEqual((again.returncode, again.stderr), (0, ""))
+        self.assertEqual(done.stdout, again.stdout)
+
+    def test_of_an_option(self):
+        words = ["characterize", self.copy_of_packing(), "--only", "coordination", "--position-noise", "1nm", "--json"]
+        note = "--noise-replicas is called --realizations now; the old name works until version 2"
+        done = [self.run_program(*words, name, "2", "-o", f"{name}.h5") for name in ("--noise-replicas", "--realizations")]
+        self.assertEqual([each.returncode for each in done], [0, 0], done)
+        self.check_sentence(done[0].stderr, note)
+        self.assertEqual(done[1].stderr, "")
+        noises = [json.loads(each.stdout)["noise"] for each in done]
+        self.assertEqual(*noises)
+
+    def test_with_an_equals_sign(self):
+        done = self.run_program("generate", "brownian", "--tangential-stiffness=1", "--friction", "2km")
+        self.assertIn("friction", done.stderr)
+        self.assertNotIn("no option", done.stderr)
+
+    def test_old_and_new_name_together(self):
+        self.fail_with(2, "characterize", self.copy_of_packing(), "--position-noise", "1nm", "--noise-replicas", "2", "--realizations", "3",
+                       says="--noise-replicas is the old name of --realizations: give one of them")
+
+    def test_of_a_verb(self):
+        self.both(["diagnose", "--catalogue"], ["diagnose", "catalogue"],
+                  "'diagnose --catalogue' is called 'diagnose catalogue' now; the old spelling works until version 2")
+
+    def test_help_shows_the_new_names_only(self):
+        text = self.succeed("shear", "--help")
+        self.assertIn("--reverse", text)
+        self.assertNotIn("--down", text)
+
+    def test_in_a_sweep(self):
+        self.write("sweep.toml", """[[generate]]
+verb = "vem"
+particles = 60
+volume-fraction = 0.4
+radius = "0.25um"
+[shear]
+method = "quasistatic"
+amplitudes = "1e-5"
+orientation = "zx"
+down = [true, false]
+""")
+        self.assertEqual(self.succeed_json("dataset", "plan", "sweep.toml")["structures"], 2)
 
 
 class WrongUsage(ProgramTest):
@@ -123,7 +177,7 @@ class WrongUsage(ProgramTest):
             ([*shear, "--orientation", "xy"], "--orientation is read only with --method quasistatic or dem"),
             ([*shear, "--checkpoint", "c.h5"], "--checkpoint is read only with --method quasistatic or dem"),
             ([*shear, "--amplitudes", "1e-4"], "--amplitudes is read only with --method quasistatic"),
-            ([*shear, "--method", "quasistatic", "--down"], "--down is read only with --amplitudes"),
+            ([*shear, "--method", "quasistatic", "--reverse"], "--reverse is read only with --amplitudes"),
             ([*shear, "--method", "quasistatic", "--ramp-steps", "7"], "--ramp-steps is read only with --ramp"),
             ([*shear, "--method", "quasistatic", "--ramp", "0.1", "--frequency", "1Hz"], "only with --amplitudes"),
             ([*shear, "--method", "quasistatic", "--amplitudes", "1e-4", "--frequency", "1Hz,2Hz"], "at one frequency"),
@@ -133,7 +187,7 @@ class WrongUsage(ProgramTest):
             ([*shear, "--solver", "direct", "--modulus-tolerance", "1e-6"], "only with --solver auto or iterative"),
             ([*shear, "--model", "model.toml", "--normal-stiffness", "70N/m"], "in one of the two places"),
             (["calibrate", "a.h5", "--boundary", "periodic"], "--boundary is read only with --method dem"),
-            (["characterize", "a.h5", "--noise-replicas", "3"], "--noise-replicas is read only with --position-noise"),
+            (["characterize", "a.h5", "--realizations", "3"], "--realizations is read only with --position-noise"),
             (["characterize", "a.h5", "--voxels-per-radius", "2"], "--voxels-per-radius is read by the measure transport"),
             (["characterize", "a.h5", "--only", "overlap", "--chord-lines", "9"], "--chord-lines is read by the measure chord_lengths"),
             (["characterize", "a.h5", "a.h5", "--compare", "--largest-ring", "5"], "--largest-ring is read by the measure rings"),
@@ -141,7 +195,7 @@ class WrongUsage(ProgramTest):
              "--radius is not read with --size-distribution"),
             ([*brownian, "--start", "a.h5", "--particles", "9"], "--particles is not read with --start"),
             ([*brownian, "--start", "a.h5", "--equilibration-time", "1us"], "--equilibration-time is not read with --start"),
-            ([*suspension, "--friction", "0.5"], "--friction is read only with --tangential-stiffness"),
+            ([*suspension, "--friction", "0.5"], "--friction is read only with --contact-shear-stiffness"),
             ([*suspension, "--density-difference", "100"], "--density-difference is read only with --gravity"),
             ([*suspension, "--plateau-time", "1us"], "--plateau-time is read only with --stop-plateau coordination or mean-gap"),
             ([*suspension, "--checkpoint-interval", "1s"], "--checkpoint-interval is read only with --checkpoint"),
@@ -149,8 +203,8 @@ class WrongUsage(ProgramTest):
             ([*suspension, "--potential-curve"], "is not read with --potential-curve"),
             (["plot", "a.h5", "--figure", "packing", "-o", "p.svg", "--format", "png"], "--format is read only with --paper"),
             (["plot", "a.h5", "--figure", "packing", "-o", "p.svg", "--resolution", "100"], "--resolution is read for a PNG only"),
-            (["diagnose", "e.toml", "--new", "--level", "0.1"], "--level is not read with --new"),
-            (["diagnose", "e.toml", "--power", "--bootstrap", "999"], "--bootstrap is at most 199 in a plan"),
+            (["diagnose", "e.toml", "--new", "--significance", "0.1"], "--significance is not read with --new"),
+            (["diagnose", "plan", "e.toml", "--bootstrap", "999"], "--bootstrap is at most 199 in a plan"),
             (["diagnose", "e.toml", "--check", "--seed", "2"], "--seed is not read with --check"),
             (["diagnose", "--catalogue", "--causes", "ageing"], "--causes is not read with --catalogue"),
         ]
@@ -175,7 +229,7 @@ class WrongUsage(ProgramTest):
         for text, says in (("[sampel]\n", "did you mean 'sample'?"), ('[sample]\nparticle_radus = "1um"\n', "did you mean 'particle_radius'?"),
                            ('[[measurment]]\nkind = "amplitude-sweep"\n', "did you mean 'measurement'?")):
             self.write("experiment.toml", text)
-            self.fail_with(2, "diagnose", "--check", "experiment.toml", says=says)
+            self.fail_with(2, "diagnose", "check", "experiment.toml", says=says)
 
     def test_errors_with_json_are_sentences_on_standard_error(self):
         self.fail_with(2, "info", "absent.h5", "--json", says="absent.h5")

@@ -50,6 +50,17 @@ class Sentences(ModuleTest):
             about = re.sub(r"`[^`]*`", "", getattr(coagula, name).__doc__)  # commands of the program apart
             self.assertNotRegex(about, r"--[a-z]", name)
 
+    def test_old_names_of_arguments(self):
+        made = self.made(particles=100, voids=50)
+        call = {"method": "quasistatic", "amplitudes": [1e-6], "orientation": "zx"}
+        with self.assertWarnsRegex(FutureWarning, "^down is called reverse now") as warned:
+            old = coagula.shear(made, down=True, **call)
+        self.assertEqual(Path(warned.filename).name, "test_errors.py")
+        self.assertEqual(list(old.amplitude), list(coagula.shear(made, reverse=True, **call).amplitude))
+        self.assertEqual(len(old.amplitude), 2)
+        with self.assertRaisesRegex(TypeError, "down is the old name of reverse"):
+            coagula.shear(made, down=True, reverse=True, **call)
+
     def test_tolerance_of_contacts(self):
         made = self.made(particles=100, voids=50)
         self.assertEqual(len(coagula.find_contacts(made, 0.01)), len(made.bonds))

@@ -42,17 +42,24 @@ std::string meant_option(const std::string& written, const std::vector<Option>& 
     return begin == std::string::npos ? std::string{} : did_you_mean(written.substr(begin), names, "--");
 }
 
+void describe(po::options_description& description, const Option& option, const std::string& names, bool many) {
+    if (option.kind == Option::Kind::flag) {
+        description.add_options()(names.c_str(), "");
+    } else if (many) {
+        description.add_options()(names.c_str(), po::value<std::vector<std::string>>(), "");
+    } else {
+        description.add_options()(names.c_str(), po::value<std::string>(), "");
+    }
+}
+
 po::variables_map read_words(const Verb& verb, const std::vector<Option>& options, const std::vector<std::string>& words,
                              bool many_inputs) {
     po::options_description description;
     for (const Option& option : options) {
         const std::string names = option.letter != 0 ? option.name + "," + option.letter : option.name;
-        if (option.kind == Option::Kind::flag) {
-            description.add_options()(names.c_str(), "");
-        } else if (many_inputs && option.name == "input") {
-            description.add_options()(names.c_str(), po::value<std::vector<std::string>>(), "");
-        } else {
-            description.add_options()(names.c_str(), po::value<std::string>(), "");
+        describe(description, option, names, many_inputs && option.name == "input");
+        if (!option.former_name.empty()) {
+            describe(description, option, option.former_name, false);
         }
     }
     po::positional_options_description positional;
@@ -155,8 +162,18 @@ CommandLine read_command_line(const Verb& verb, const std::vector<std::string>& 
     const po::variables_map map = read_words(verb, options, words, takes_many(verb, words));
     line.help_wanted = map.count("help") > 0;
     for (const Option& option : options) {
+        const bool old = !option.former_name.empty() && map.count(option.former_name) > 0;
         if (map.count(option.name) > 0) {
             line.call.values[option.name] = given_of(option, map[option.name]);
+        }
+        if (old && map.count(option.name) > 0) {
+            throw InputError("--" + option.former_name + " is the old name of --" + option.name + ": give one of them" +
+                             hint(verb.name));
+        }
+        if (old) {
+            line.call.values[option.name] = given_of(option, map[option.former_name]);
+            line.notes.push_back("--" + option.former_name + " is called --" + option.name +
+                                 " now; the old name works until version 2");
         }
     }
     return line;

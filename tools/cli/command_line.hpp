@@ -12,6 +12,7 @@ namespace coagula::tools {
 struct CommandLine {
     stages::Call call;
     bool help_wanted = false;
+    std::vector<std::string> notes = {};  ///< sentences about old names that were used
 };
 
 /// Throws InputError with a sentence that names the word and the rule.

@@ -121,6 +121,9 @@ void run(std::vector<std::string> words) {
         return;
     }
     const Arguments arguments(command.verb, line.call);
+    for (const std::string& note : line.notes) {
+        std::cerr << "coagula: " << note << std::endl;
+    }
     omp_set_num_threads(
         usable_threads(arguments.has("threads") ? static_cast<int>(arguments.count("threads")) : omp_get_max_threads()));
     command.run(arguments);

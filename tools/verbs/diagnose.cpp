@@ -52,23 +52,30 @@ void run_diagnose_new(const Arguments& arguments) {
     io::write_file(path, found.text, arguments.flag("force"));
     Table& table = found.table;
     table.insert(table.begin(), {"experiment", path});
-    table.emplace_back("next", "coagula diagnose --check " + path);
+    table.emplace_back("next", "coagula diagnose check " + path);
     report(arguments, found.json, table);
 }
 
 void run_diagnose(const Arguments& arguments) {
-    static const std::vector<std::pair<std::string, void (*)(const Arguments&)>> ways = {{"catalogue", &run_diagnose_catalogue},
-                                                                                         {"new", &run_diagnose_new},
-                                                                                         {"power", &run_diagnose_plan},
-                                                                                         {"check", &run_diagnose_check}};
-    for (const auto& [name, run] : ways) {
+    struct OldSpelling {
+        std::string flag;
+        std::string verb;
+        void (*run)(const Arguments&);
+    };
+    static const std::vector<OldSpelling> spellings = {{"catalogue", "catalogue", &run_diagnose_catalogue},
+                                                       {"new", "new", &run_diagnose_new},
+                                                       {"power", "plan", &run_diagnose_plan},
+                                                       {"check", "check", &run_diagnose_check}};
+    for (const auto& [name, verb, run] : spellings) {
         if (arguments.flag(name)) {
+            std::cerr << "coagula: 'diagnose --" << name << "' is called 'diagnose " << verb
+                      << "' now; the old spelling works until version 2" << std::endl;
             run(arguments);
             return;
         }
     }
     if (!arguments.has("output")) {
-        throw InputError("diagnose needs a folder for its results, --output FOLDER, or --check to look at the data only");
+        throw InputError("diagnose needs a folder for its results, --output FOLDER, or 'diagnose check' to look at the data only");
     }
     const stages::DiagnoseRun run = stages::diagnose_run(arguments, arguments.text("output"));
     const Printed found = diagnose_experiment(run, make_progress(arguments.flag("quiet")));

@@ -80,12 +80,12 @@ std::vector<Option> characterize_options() {
     options.push_back(text("only", "LIST", "take only these measures (see below), such as doh,overlap; all: every measure"));
     options.push_back(text("position-noise", "X|X,Y,Z",
                            "add noise of this standard deviation to the coordinates, measure again and say what changes"));
-    options.push_back(count("noise-replicas", "number of packings with noise", "4", within(2, 1000)));
+    options.push_back(formerly("noise-replicas", count("realizations", "number of packings with noise", "4", within(2, 1000))));
     options.push_back(flag("compare", "say which of two files is more heterogeneous, by three measures; nothing is written"));
     options.push_back(count("seed", "seed of the random numbers", "1", at_least(0)));
     options.push_back(output("write to a new file; results are added to the input file when not given"));
     options.push_back(flag("force", "replace an existing output file"));
-    read_only_with(options, {"noise-replicas"}, "position-noise");
+    read_only_with(options, {"realizations"}, "position-noise");
     return options;
 }
 
@@ -114,7 +114,7 @@ CharacterizeRun characterize_run(const Arguments& arguments, const std::optional
     }
     run.seed = static_cast<std::uint64_t>(arguments.count("seed"));
     if (arguments.has("position-noise")) {
-        run.noise = {arguments.parsed("position-noise", parse_noise), arguments.count("noise-replicas")};
+        run.noise = {arguments.parsed("position-noise", parse_noise), arguments.count("realizations")};
     }
     return run;
 }

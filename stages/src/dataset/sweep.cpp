@@ -28,7 +28,7 @@ const std::set<std::string> without_place = {"checkpoint", "checkpoint-interval"
 
 const Option* option_named(const Verb& verb, const std::string& name) {
     const auto found =
-        std::find_if(verb.options.begin(), verb.options.end(), [&](const Option& option) { return option.name == name; });
+        std::find_if(verb.options.begin(), verb.options.end(), [&](const Option& option) { return option.goes_by(name); });
     return found == verb.options.end() ? nullptr : &*found;
 }
 

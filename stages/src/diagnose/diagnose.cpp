@@ -210,14 +210,15 @@ Printed write_diagnosis(const DiagnoseRun& run, const Progress& progress) {
 
 std::vector<Option> diagnosis_options() {
     return {output("folder for report.html, diagnosis.json, diagnosis.h5, extended_model.toml and the cache of simulations"),
-            quantity("level", "1", "significance level of the test of the base model", "0.05", within(1e-6, 0.5)),
+            formerly("level",
+                     quantity("significance", "1", "significance level of the test of the base model", "0.05", within(1e-6, 0.5))),
             count("bootstrap", "simulated data sets for that test", "999", within(99, 1000000)),
             count("seed", "seed of the random numbers", "1", at_least(0)), flag("force", "replace an existing diagnosis")};
 }
 
 diagnose::DiagnosisOptions diagnosis_options_of(const Arguments& arguments) {
     diagnose::DiagnosisOptions options;
-    options.level = arguments.quantity("level");
+    options.level = arguments.quantity("significance");
     options.bootstrap = static_cast<int>(arguments.count("bootstrap"));
     options.seed = static_cast<std::uint64_t>(arguments.count("seed"));
     if (arguments.has("causes")) {
@@ -255,7 +256,7 @@ namespace {
 
 /// What each way of working reads.
 void add_conditions_of_modes(std::vector<Option>& options) {
-    const std::vector<std::string> of_inference = {"causes", "level", "bootstrap", "seed"};
+    const std::vector<std::string> of_inference = {"causes", "significance", "bootstrap", "seed"};
     not_read_with(options, of_inference, "catalogue");
     not_read_with(options, of_inference, "new");
     not_read_with(options, of_inference, "check");
@@ -273,13 +274,10 @@ Verb diagnose_verb() {
         .name = "diagnose",
         .summary = "where the simulation deviates from measured moduli, and the cause",
         .input = "EXPERIMENT.toml",
-        .options = {flag("new",
-                         "write a commented experiment file (to -o, otherwise printed) from exports of instruments, which are "
-                         "given in place of EXPERIMENT.toml"),
-                    flag("check", "check the data only: print columns, replicates, cells left out with reasons, and noise"),
-                    flag("power", "before measuring: say which causes this experiment could find, and from which strength on"),
-                    flag("catalogue",
-                         "print the catalogue of causes with their parameters and priors as a table; needs no experiment"),
+        .options = {flag("new", "old spelling of 'coagula diagnose new'"),
+                    flag("check", "old spelling of 'coagula diagnose check'"),
+                    flag("power", "old spelling of 'coagula diagnose plan'"),
+                    flag("catalogue", "old spelling of 'coagula diagnose catalogue'"),
                     text("causes", "NAME,NAME...", "consider only these causes, instead of the whole catalogue"),
                     count("data-sets", "with --power: data sets simulated at each strength near a threshold (200)", "",
                           within(20, 100000)),

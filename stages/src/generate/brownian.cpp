@@ -30,7 +30,7 @@ BrownianOptions brownian_options(const Arguments& arguments) {
     options.temperature = arguments.quantity("temperature");
     options.viscosity = arguments.quantity("viscosity");
     options.slowing = arguments.quantity("slowing");
-    options.resistance = {.tangential_stiffness = arguments.optional_quantity("tangential-stiffness").value_or(unset),
+    options.resistance = {.tangential_stiffness = arguments.optional_quantity("contact-shear-stiffness").value_or(unset),
                           .friction = arguments.optional_quantity("friction").value_or(unset),
                           .rolling_stiffness = arguments.optional_quantity("rolling-stiffness").value_or(unset),
                           .rolling_friction = arguments.optional_quantity("rolling-friction").value_or(unset)};
@@ -93,10 +93,10 @@ void add_conditions(std::vector<Option>& options) {
         std::erase(of_run, name);
     }
     not_read_with(options, of_suspension, "start");
-    not_read_with(options, {"equilibration-potential", "tangential-stiffness", "rolling-stiffness"}, "law", {"depletion"});
+    not_read_with(options, {"equilibration-potential", "contact-shear-stiffness", "rolling-stiffness"}, "law", {"depletion"});
     not_read_with(options, of_run, "potential-curve");
     read_only_with(options, {"picture"}, "potential-curve");
-    read_only_with(options, {"friction"}, "tangential-stiffness");
+    read_only_with(options, {"friction"}, "contact-shear-stiffness");
     read_only_with(options, {"rolling-friction"}, "rolling-stiffness");
     read_only_with(options, {"density-difference"}, "gravity");
     read_only_with(options, {"shear-frequency"}, "shear-amplitude");
@@ -107,7 +107,7 @@ void add_conditions(std::vector<Option>& options) {
     // Its styles have no overdamped particles that turn, and nothing here restarts it.
     not_read_with(
         options,
-        {"tangential-stiffness", "rolling-stiffness", "gravity", "shear-rate", "shear-amplitude", "integrator", "checkpoint"},
+        {"contact-shear-stiffness", "rolling-stiffness", "gravity", "shear-rate", "shear-amplitude", "integrator", "checkpoint"},
         "engine", {"lammps"});
 }
 
@@ -336,8 +336,9 @@ Verb generate_brownian_verb() {
                  within(1e-6, 1)),
         choice("hydrodynamics", {"none", "mean-field"},
                "mean-field: diffusion is also reduced by the factor (1 - 1.56 phi)(1 - 0.27 phi)", "none"),
-        quantity("tangential-stiffness", "N/m", "tangential stiffness of a contact; contacts slide freely when not given", "",
-                 physical::stiffness),
+        formerly("tangential-stiffness",
+                 quantity("contact-shear-stiffness", "N/m", "shear stiffness of a contact; contacts slide freely when not given",
+                          "", physical::stiffness)),
         quantity(
             "friction", "1",
             "coefficient of friction: a contact slips beyond this times its elastic normal force; it never slips when not given",

@@ -105,6 +105,11 @@ Option required(Option option) {
     return option;
 }
 
+Option formerly(std::string name, Option option) {
+    option.former_name = std::move(name);
+    return option;
+}
+
 Option reads(Option option) {
     option.file = Option::File::read;
     return option;

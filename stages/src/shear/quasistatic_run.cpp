@@ -88,7 +88,7 @@ std::vector<Test> run_or_resume(const ShearRun& run, const Packing& packing, con
 
 std::vector<double> amplitudes_of(const Arguments& arguments) {
     std::vector<double> amplitudes = arguments.parsed("amplitudes", parse_amplitudes);
-    if (arguments.flag("down")) {
+    if (arguments.flag("reverse")) {
         const std::vector<double> up = amplitudes;
         amplitudes.insert(amplitudes.end(), up.rbegin(), up.rend());
     }
@@ -142,7 +142,7 @@ void check_stiffness_at_rest(const Arguments& arguments, const ContactModel& mod
 std::vector<Option> quasistatic_options() {
     std::vector<Option> options = {
         text("amplitudes", "LIST", "quasistatic: amplitudes of strain such as 1e-4,1e-3 or FROM:TO:N in logarithmic steps"),
-        flag("down", "quasistatic: repeat the amplitudes in descending order"),
+        formerly("down", flag("reverse", "quasistatic: repeat the amplitudes in descending order")),
         count("cycles", "quasistatic: cycles per amplitude, of which the last is measured", "1", within(1, 1000)),
         count("steps-per-cycle", "quasistatic: equilibria in a cycle, a multiple of 4", "32", within(4, 100000)),
         quantity("ramp", "1", "quasistatic: shear to this strain instead of cycles", "", within(-10, 10)),
@@ -150,7 +150,7 @@ std::vector<Option> quasistatic_options() {
                "shear"),
         count("ramp-steps", "quasistatic: equally spaced equilibria on the ramp", "50", within(1, 100000))};
     read_only_with(options, {"amplitudes", "ramp"}, "method", {"quasistatic"});
-    read_only_with(options, {"down", "cycles", "steps-per-cycle"}, "amplitudes");
+    read_only_with(options, {"reverse", "cycles", "steps-per-cycle"}, "amplitudes");
     read_only_with(options, {"ramp-steps", "strain"}, "ramp");
     return options;
 }

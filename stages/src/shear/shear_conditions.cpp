@@ -25,7 +25,7 @@ const std::map<std::string, std::vector<std::string>>& conditions_by_group() {
         {"/mechanics/linear", {}},
         {"/mechanics/frequency", {"frequency", "frequency-sweep"}},
         {"/mechanics/quasistatic",
-         {"rest-length", "orientation", "amplitudes", "down", "cycles", "steps-per-cycle", "ramp", "ramp-steps", "frequency",
+         {"rest-length", "orientation", "amplitudes", "reverse", "cycles", "steps-per-cycle", "ramp", "ramp-steps", "frequency",
           "frequency-sweep"}},
         {"/mechanics/compression", {"rest-length", "orientation", "ramp", "ramp-steps", "strain"}},
         {"/mechanics/dem",

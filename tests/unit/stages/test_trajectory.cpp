@@ -15,9 +15,9 @@ namespace {
 using Values = std::map<std::string, Given>;
 
 BrownianRun ending(const Values& options) {
-    Values values{{"particles", std::int64_t{60}}, {"volume-fraction", 0.3},      {"radius", std::string("0.25um")},
-                  {"surface-potential", 0.0},      {"sample-interval", 1.3e-5},   {"equilibration-time", 1e-4},
-                  {"output", std::string("x.h5")}, {"tangential-stiffness", 1e-4}};
+    Values values{{"particles", std::int64_t{60}}, {"volume-fraction", 0.3},         {"radius", std::string("0.25um")},
+                  {"surface-potential", 0.0},      {"sample-interval", 1.3e-5},      {"equilibration-time", 1e-4},
+                  {"output", std::string("x.h5")}, {"contact-shear-stiffness", 1e-4}};
     values.insert(options.begin(), options.end());
     return brownian_run(Arguments(generate_brownian_verb(), {values, "", Caller::file}));
 }

@@ -31,7 +31,7 @@ struct RecognisedFile {
     std::vector<RecognisedTable> tables;
 };
 
-/// Reads a file and tells its tables by which of their columns vary. What would not pass `--check` has no kind.
+/// Reads a file and tells its tables by which of their columns vary. What would not pass `diagnose check` has no kind.
 RecognisedFile recognise(const std::string& path);
 
 /// The quantities of the columns with numbers.

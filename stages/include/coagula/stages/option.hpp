@@ -65,6 +65,9 @@ struct Option {
     /// The largest length without a unit. A larger number is refused, because its unit was more likely forgotten than metres meant.
     double largest_bare = std::numeric_limits<double>::infinity();
     std::vector<Condition> conditions = {};  ///< under which the option is read; otherwise it is refused
+    std::string former_name = {};            ///< which still works, and is said to be old
+
+    bool goes_by(const std::string& written) const { return written == name || (!written.empty() && written == former_name); }
 };
 
 Option flag(std::string name, std::string meaning);
@@ -77,6 +80,8 @@ Option particle_radius(std::string meaning);
 Option text(std::string name, std::string placeholder, std::string meaning, std::string fallback = {});
 Option choice(std::string name, std::vector<std::string> choices, std::string meaning, std::string fallback);
 Option required(Option option);
+/// The option had another name in an earlier version.
+Option formerly(std::string name, Option option);
 /// A text that names a file, which the call reads.
 Option reads(Option option);
 /// A text that names a file, which the call writes.
