@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coagula/diagnose/lone_tables.hpp>
-#include <coagula/diagnose/outliers.hpp>
-#include <coagula/diagnose/replicate_groups.hpp>
 #include <coagula/diagnose/run_clock.hpp>
 #include <coagula/diagnose/stress_control.hpp>
 #include <coagula/diagnose/waveform.hpp>
@@ -95,22 +92,23 @@ void state_inherited(diagnose::Experiment& experiment) {
 }
 
 /// Whose strain is no coordinate, because it followed.
-void note_set_stresses(ExperimentFile& file) {
-    for (const diagnose::Measurement& table : file.experiment.measurements) {
+void note_set_stresses(CheckedExperiment& found) {
+    for (const diagnose::Measurement& table : found.file.experiment.measurements) {
         if (!table.stress_controlled && diagnose::is_stress_controlled(table)) {
-            file.notes.push_back(table.label + ", sample '" + table.sample +
-                                 "': the stress stays while the strain changes from row to row, so that the stress is taken for "
-                                 "what was set and the strain for what followed; if it was not, say control = \"strain\"");
+            found.findings.emplace_back(
+                table.label + ", sample '" + table.sample +
+                "': the stress stays while the strain changes from row to row, so that the stress is taken for "
+                "what was set and the strain for what followed; if it was not, say control = \"strain\"");
         }
     }
 }
 
 /// A network cannot show what a liquid does.
-void note_liquids(ExperimentFile& file) {
-    const bool network = file.experiment.material.kind == diagnose::MaterialKind::network;
-    for (const diagnose::Measurement& table : file.experiment.measurements) {
+void note_liquids(CheckedExperiment& found) {
+    const bool network = found.file.experiment.material.kind == diagnose::MaterialKind::network;
+    for (const diagnose::Measurement& table : found.file.experiment.measurements) {
         if (network && std::isnan(table.fluid_viscosity) && looks_newtonian(table)) {
-            file.notes.push_back(
+            found.findings.emplace_back(
                 table.label +
                 ": this sample is a liquid, not a network of particles: G'' is far above G' and proportional to the frequency; "
                 "add [material] with kind = \"newtonian\", and its viscosity where it is known");
@@ -141,30 +139,25 @@ CheckedExperiment check_experiment(const std::string& path, diagnose::DiagnosisO
     errors.tables.resize(experiment.measurements.size());
     for (const diagnose::StepConversion& conversion : found.conversions) {
         errors.tables[conversion.measurement] = conversion.errors;
-        found.file.notes.push_back(conversion.sentence);
+        found.findings.emplace_back(conversion.sentence);
     }
-    note_liquids(found.file);
-    note_set_stresses(found.file);
-    for (const diagnose::Outlier& outlier : diagnose::leave_out_outliers(experiment.measurements)) {
-        found.file.notes.push_back(outlier.sentence);
-    }
+    note_liquids(found);
+    note_set_stresses(found);
+    const auto add = [&](const auto& facts) { found.findings.insert(found.findings.end(), facts.begin(), facts.end()); };
+    add(diagnose::leave_out_outliers(experiment.measurements));
     state_inherited(experiment);
-    for (const auto& notes_on : {diagnose::notes_on_lone_tables, diagnose::notes_on_groups}) {
-        for (std::string& note : notes_on(experiment.measurements)) {
-            found.file.notes.push_back(std::move(note));
-        }
-    }
+    add(diagnose::lone_tables(experiment.measurements));
+    add(diagnose::groups_of_replicates(experiment.measurements));
     found.noise = diagnose::noise_of_tables(experiment.measurements, noise);
     drop_assumed_noise(found);
     found.options.stated_noise = noise;
     errors = diagnose::estimated_errors(experiment, found.noise, noise, std::move(errors));
     diagnose::reduce_waveforms(experiment, errors, noise.relative, noise.phase);
     naming(path, [&] {
-        const std::vector<std::string> clocks = diagnose::notes_on_clocks(experiment);
-        found.file.notes.insert(found.file.notes.end(), clocks.begin(), clocks.end());
+        add(diagnose::notes_on_clocks(experiment));
         found.structures = check_structures(experiment);
         if (experiment.structure_sizes.empty() && experiment.material.kind == diagnose::MaterialKind::network) {
-            found.file.notes.emplace_back("the experiment names no structures yet, which a diagnosis needs");
+            found.findings.emplace_back("the experiment names no structures yet, which a diagnosis needs");
         } else {
             diagnose::check(experiment, found.options);
         }

@@ -4,6 +4,8 @@
 #include "diagnosis_charts.hpp"
 #include "html.hpp"
 
+#include <coagula/report/data_notes.hpp>
+
 #include <map>
 #include <set>
 
@@ -45,7 +47,7 @@ std::string noise_section(const std::vector<diagnose::NoiseModel>& noise) {
                         is_of_phase(model) ? interval(model.relative, 1, "rad") : interval(model.relative, 0.01, "%"),
                         interval(model.floor, 1, diagnose::floor_unit(model)) + (model.floor_of_stress ? " of the stress" : ""),
                         is_of_phase(model) ? "" : interval(model.sample, 0.01, "%"), printed(model.autocorrelation),
-                        escaped(model.statement)});
+                        escaped(source_of(model))});
         for (const diagnose::SampleEffect& effect : model.sample_effects) {
             effects[effect.sample].push_back(symbol_of(model.observable) + " " + signed_percent(effect.effect));
         }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <coagula/report/data_notes.hpp>
 #include <coagula/report/diagnosis_datasets.hpp>
 
 #include "finding_sentences.hpp"
@@ -195,7 +196,7 @@ void add_noise(Results& results, const DiagnosisRecord& record) {
         if (std::any_of(results.begin(), results.end(), [&](const io::Dataset& one) { return one.path == path + "statement"; })) {
             continue;  // tables of this kind at other conditions: the noise that is used is that of the first
         }
-        results.push_back(io::text(path + "statement", noise.statement, "source of the numbers"));
+        results.push_back(io::text(path + "statement", source_of(noise), "source of the numbers"));
         const auto estimate = [&](const std::string& name, const diagnose::Estimate& value, const std::string& unit,
                                   const std::string& meaning) {
             results.push_back(io::vector(path + name, Eigen::Vector3d(value.value, value.low, value.high), unit,

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <coagula/report/data_notes.hpp>
 #include <coagula/report/diagnosis_results.hpp>
 
 #include "finding_sentences.hpp"
@@ -187,7 +188,7 @@ Json noise_json(const diagnose::NoiseModel& noise) {
                  {"autocorrelation", noise.autocorrelation},
                  {"excess_kurtosis", noise.excess_kurtosis},
                  {"sample_effects", effects_json(noise.sample_effects)},
-                 {"statement", noise.statement}};
+                 {"statement", source_of(noise)}};
     return json;
 }
 

@@ -3,15 +3,12 @@
 
 #include "data/median.hpp"
 
-#include <coagula/common/checks.hpp>
 #include <coagula/diagnose/noise.hpp>
-#include <coagula/diagnose/observable.hpp>
 
 #include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 namespace coagula::diagnose {
@@ -82,28 +79,6 @@ std::optional<LoneTable> farthest(const Replicates& replicates) {
     return found;
 }
 
-std::string three_digits(double value) {
-    const double digit = std::pow(10, std::floor(std::log10(value)) - 2);
-    return to_text(std::round(value / digit) * digit);
-}
-
-std::string sentence_on(const LoneTable& lone) {
-    const std::string table = lone.label + (lone.sample.empty() ? "" : ", sample '" + lone.sample + "'");
-    std::string text = table + ": " + std::string(observable_named(lone.observable).phrase);
-    if (lone.observable == "phase") {
-        text += " lies " + three_digits(std::abs(lone.difference) * 180 / std::numbers::pi) + " degrees " +
-                (lone.difference < 0 ? "below" : "above");
-    } else {
-        const double factor = lone.difference < 1 ? 1 / lone.difference : lone.difference;
-        text += " is " + three_digits(factor) + " times " + (lone.difference < 1 ? "smaller" : "larger") + " than";
-    }
-    text += lone.one_of_two ? " that of its replicate, " + lone.other : " that of its replicates, which agree with each other";
-    return text +
-           "; that is no noise, but it counts as noise and hides causes: look for a wrong unit, sample or geometry, and "
-           "diagnose again without " +
-           (lone.one_of_two ? "the wrong one" : "this table");
-}
-
 }  // namespace
 
 std::vector<LoneTable> lone_tables(const std::vector<Measurement>& tables) {
@@ -114,14 +89,6 @@ std::vector<LoneTable> lone_tables(const std::vector<Measurement>& tables) {
         }
     }
     return all;
-}
-
-std::vector<std::string> notes_on_lone_tables(const std::vector<Measurement>& tables) {
-    std::vector<std::string> notes;
-    for (const LoneTable& lone : lone_tables(tables)) {
-        notes.push_back(sentence_on(lone));
-    }
-    return notes;
 }
 
 }  // namespace coagula::diagnose

@@ -245,10 +245,6 @@ Estimate stated(double value) {
     return {value, value, value};
 }
 
-std::string count_text(std::size_t count, const std::string& noun) {
-    return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-}
-
 /// Selects the values of the conditions that have replicates.
 Eigen::VectorXd where_replicated(const Replicates& replicates, const Eigen::VectorXd& all) {
     std::vector<double> chosen;
@@ -258,15 +254,6 @@ Eigen::VectorXd where_replicated(const Replicates& replicates, const Eigen::Vect
         }
     }
     return Eigen::VectorXd::Map(chosen.data(), static_cast<Eigen::Index>(chosen.size()));
-}
-
-std::string how_fitted(const NoiseModel& noise, bool with_floor) {
-    return "restricted maximum likelihood from " + count_text(noise.tables, "table") + " on " +
-           count_text(noise.samples, "sample") + ", " + std::to_string(noise.values) + " values" +
-           (with_floor ? "" : "; the levels are too similar to separate a floor from the relative part") +
-           (noise.sample_estimated || is_of_phase(noise)
-                ? ""
-                : "; differences between samples are stated, not measured, because there is only one sample");
 }
 
 /// What was fitted to the values beforehand has made their scatter smaller.
@@ -322,7 +309,7 @@ void fit_replicates(NoiseModel& noise, const Replicates& replicates, const Repli
     }
     noise.rows_estimated = true;
     noise.sample_estimated = with_sample;
-    noise.statement = how_fitted(noise, with_floor);
+    noise.floor_is_told = with_floor;
 }
 
 }  // namespace
@@ -353,8 +340,7 @@ NoiseModel fit_noise(const Replicates& replicates, const StatedNoise& given) {
     noise.stated_correlation = given.correlation;
     noise.relative = stated(is_of_phase(noise) ? given.phase : given.relative);
     noise.sample = stated(is_of_phase(noise) ? 0 : given.sample);
-    noise.statement =
-        enough ? "stated, not measured: replicates average to zero or below" : "stated, not measured: there are no replicates";
+    noise.averages_to_zero = enough;
     return noise;
 }
 

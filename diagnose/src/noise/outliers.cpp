@@ -204,11 +204,8 @@ void leave_out_rows(std::vector<Measurement>& tables, std::size_t number, const 
             contradicted = std::isnan(expected) ? contradicted : std::abs(sizes.values[k] - expected) > 0.5 * std::abs(departure);
         }
         if (std::abs(departure) > std::max(row_deviations * deviation, least_departure) && contradicted) {
-            const std::string what = "|G*| is " + times_text(departure) + " in the rows beside it";
-            leave_out(table, sizes.rows[k], "outlier: " + what);
-            found.push_back({number, sizes.rows[k], std::exp(departure),
-                             table.label + ", sample '" + table.sample + "': row " + std::to_string(sizes.rows[k] + 1) +
-                                 " is left out as an outlier, " + what});
+            found.push_back({number, sizes.rows[k], std::exp(departure), times_text(departure)});
+            leave_out(table, sizes.rows[k], "outlier: |G*| is " + found.back().size + " in the rows beside it");
         }
     }
 }
@@ -281,9 +278,7 @@ std::vector<Outlier> leave_out_outliers(std::vector<Measurement>& tables) {
             for (std::size_t row = 0; row < tables[number].rows(); ++row) {
                 leave_out(tables[number], row, "sample '" + sample + "' is an outlier");
             }
-            found.push_back({number, std::nullopt, std::exp(departure),
-                             tables[number].label + ": sample '" + sample + "' is left out as an outlier, its |G*| is " +
-                                 times_text(departure) + " that of the others"});
+            found.push_back({number, std::nullopt, std::exp(departure), times_text(departure)});
         }
     }
     return found;

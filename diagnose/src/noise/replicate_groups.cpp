@@ -119,32 +119,6 @@ double deviate_of(double ratio, double degrees, double other_degrees) {
     return ((1 - other) * root - (1 - one)) / std::sqrt(other * root * root + one);
 }
 
-std::string percent(double share) {
-    return to_text(std::round(1000 * share) / 10) + " %";
-}
-
-std::string list_of_names(const std::vector<std::string>& names) {
-    std::string list;
-    for (std::size_t k = 0; k < names.size(); ++k) {
-        list += (k == 0 ? "'" : k + 1 == names.size() ? " and '" : ", '") + names[k] + "'";
-    }
-    return list;
-}
-
-std::string subject_of(const ReplicateGroups& groups) {
-    switch (groups.by) {
-        case GroupedBy::instrument:
-            return "tables from the instruments " + list_of_names(groups.names);
-        case GroupedBy::day:
-            return "tables of different days";
-        case GroupedBy::sample:
-            return "the samples " + list_of_names(groups.names);
-        case GroupedBy::single_sample:
-            break;
-    }
-    return "sample " + list_of_names(groups.names) + " and the others";
-}
-
 }  // namespace
 
 std::vector<ReplicateGroups> groups_of_replicates(const std::vector<Measurement>& tables) {
@@ -179,18 +153,6 @@ std::vector<ReplicateGroups> groups_of_replicates(const std::vector<Measurement>
         }
     }
     return all;
-}
-
-std::vector<std::string> notes_on_groups(const std::vector<Measurement>& tables) {
-    std::vector<std::string> notes;
-    for (const ReplicateGroups& groups : groups_of_replicates(tables)) {
-        notes.push_back(
-            "replicates of kind " + groups.kind + ": in their course, beside their level, " + subject_of(groups) + " differ by " +
-            percent(groups.between) + ", tables that belong together only by " + percent(groups.within) +
-            "; that is no noise, but it counts as noise and hides causes as long as both are diagnosed together: find " +
-            "out why, or diagnose them one by one");
-    }
-    return notes;
 }
 
 }  // namespace coagula::diagnose

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/diagnose/noise.hpp>
 
-#include <string>
-
 namespace coagula::diagnose {
 
 namespace {
@@ -23,7 +21,7 @@ void borrow(NoiseModel& model, const NoiseModel& donor) {
     model.floor = donor.floor_of_stress == model.floor_of_stress ? donor.floor : Estimate{};
     model.relative = donor.relative;
     model.degrees = donor.degrees;
-    model.statement = "there are no replicates: taken from the replicates of the " + std::string(name_of(donor.kind));
+    model.borrowed_from = donor.kind;
 }
 
 }  // namespace

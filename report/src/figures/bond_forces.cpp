@@ -9,7 +9,7 @@ namespace coagula::report {
 
 namespace {
 
-const std::string group = "/mechanics/linear/load_structure/";
+const std::string load_structure = "/mechanics/linear/load_structure/";
 constexpr std::array planes = {"xy", "xz", "yz"};
 constexpr double tail_begins = 2;  // in mean forces, as coagula shear fits it
 
@@ -18,7 +18,7 @@ Series density_of(const FigureSource& source) {
     Series series{.mark = Mark::line_points};
     double carried = 0;
     for (const std::string plane : planes) {
-        const std::string path = group + plane + "/";
+        const std::string path = load_structure + plane + "/";
         const std::vector<double> density = source.numbers(path + "force_distribution/density");
         if (source.number(path + "carried") == 0) {
             continue;
@@ -53,7 +53,7 @@ double last_filled(const Series& density) {
 
 /// The exponential through the forces beyond twice the mean, in the plane xy.
 Series tail_of(const FigureSource& source, double end) {
-    const std::string path = group + "xy/force_distribution/";
+    const std::string path = load_structure + "xy/force_distribution/";
     const double slope = source.number(path + "tail_slope");
     const double share = source.number(path + "tail_bonds") / std::max(1.0, source.number(path + "bonds"));
     Series series{.mark = Mark::dashed_line, .colour = -1};
@@ -79,7 +79,8 @@ Drawing draw_bond_forces(const Sources& sources) {
         Series tail = tail_of(sources[k], last_filled(density));
         chart.series.push_back(std::move(density));
         if (sources.size() == 1 && !tail.x.empty()) {
-            tail.name = "exp(−" + with_digits(sources[k].number(group + "xy/force_distribution/tail_slope"), 3) + " f / ⟨f⟩)";
+            tail.name =
+                "exp(−" + with_digits(sources[k].number(load_structure + "xy/force_distribution/tail_slope"), 3) + " f / ⟨f⟩)";
             chart.series.push_back(std::move(tail));
         }
     }

@@ -4,6 +4,7 @@
 #include <coagula/diagnose/step_test.hpp>
 #include <coagula/diagnose/waveform.hpp>
 #include <coagula/experiment/checked_experiment.hpp>
+#include <coagula/report/data_notes.hpp>
 #include <coagula/report/diagnosis_results.hpp>
 #include <coagula/stages/diagnose.hpp>
 
@@ -176,7 +177,8 @@ void add_noise_lines(Table& lines, const NoiseModel& noise) {
     };
     const auto in_unit = [&](double value) { return with_unit(value, diagnose::floor_unit(noise)); };
     const std::string floor = noise.floor_of_stress ? " and a floor of the stress of " : " and a floor of ";
-    lines.emplace_back("noise", noise.observable + " of " + std::string(diagnose::name_of(noise.kind)) + ": " + noise.statement);
+    lines.emplace_back("noise",
+                       noise.observable + " of " + std::string(diagnose::name_of(noise.kind)) + ": " + report::source_of(noise));
     const bool of_phase = diagnose::is_of_phase(noise);
     const auto in_radians = [](double value) { return with_unit(value, "rad"); };
     lines.emplace_back("  per row", (of_phase ? interval(noise.relative, in_radians) : interval(noise.relative, percent)) +
@@ -201,7 +203,7 @@ Printed check_data(const std::string& experiment) {
                  {"taken_over", Json::array()},
                  {"measurements", Json::array()},
                  {"noise", Json::array()},
-                 {"notes", found.file.notes}};
+                 {"notes", report::notes_on(found)}};
     Table lines;
     for (const TakenOver& value : found.file.taken_over) {
         const bool is_number = value.text.empty();
@@ -229,7 +231,7 @@ Printed check_data(const std::string& experiment) {
         json["noise"].push_back(report::noise_json(noise));
         add_noise_lines(lines, noise);
     }
-    for (const std::string& note : found.file.notes) {
+    for (const std::string& note : report::notes_on(found)) {
         lines.emplace_back("note", note);
     }
     return {std::move(json), std::move(lines)};

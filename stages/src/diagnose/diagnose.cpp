@@ -7,6 +7,7 @@
 #include <coagula/experiment/checked_experiment.hpp>
 #include <coagula/experiment/simulation_cache.hpp>
 #include <coagula/io/contact_model_file.hpp>
+#include <coagula/report/data_notes.hpp>
 #include <coagula/report/diagnosis_datasets.hpp>
 #include <coagula/report/diagnosis_page.hpp>
 #include <coagula/report/diagnosis_results.hpp>
@@ -126,7 +127,7 @@ struct Diagnosed {
     std::string contact;                  ///< of the best cause, as TOML; empty: none
     std::vector<std::string> structures;  ///< calls that make those of the best cause; empty: those of the experiment
 
-    std::vector<std::string> notes() const { return notes_on(checked.file.experiment, radius, checked.file.notes); }
+    std::vector<std::string> notes() const { return notes_on(checked.file.experiment, radius, report::notes_on(checked)); }
 
     /// @param model path of the extended model; empty: none.
     Json json(const std::string& model, double seconds) const {

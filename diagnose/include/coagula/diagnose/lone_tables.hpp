@@ -23,7 +23,4 @@ struct LoneTable {
 /// or 0.1 rad. Levels are medians over the rows that all tables have.
 std::vector<LoneTable> lone_tables(const std::vector<Measurement>& tables);
 
-/// The same in sentences.
-std::vector<std::string> notes_on_lone_tables(const std::vector<Measurement>& tables);
-
 }  // namespace coagula::diagnose

@@ -15,6 +15,7 @@
 #include <Eigen/Core>
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -87,7 +88,9 @@ struct NoiseModel {
     /// Set value and level of every condition; empty unless estimated.
     Eigen::VectorXd axis = {};
     Eigen::VectorXd levels = {};
-    std::string statement;  ///< one sentence: where the numbers come from
+    bool floor_is_told = true;                          ///< the levels differ enough to separate a floor from the relative part
+    bool averages_to_zero = false;                      ///< replicates do, or to less, so that they tell nothing
+    std::optional<MeasurementKind> borrowed_from = {};  ///< whose replicates told the rows' noise, where it has none
 };
 
 /// Unit of the floor.

@@ -15,7 +15,7 @@ struct Outlier {
     std::size_t measurement;         ///< from 0
     std::optional<std::size_t> row;  ///< from 0; none: the whole sample, of which this is one table
     double factor;                   ///< value over what neighbours or the other samples say
-    std::string sentence;
+    std::string size;                ///< the same in words: "3.2 times as large as"
 };
 
 /// Leaves out, with a reason, the moduli of

@@ -26,7 +26,4 @@ struct ReplicateGroups {
 /// and within groups, in rows that follow each other as closely as those within groups do; by chance in less than one of 10 000.
 std::vector<ReplicateGroups> groups_of_replicates(const std::vector<Measurement>& tables);
 
-/// The same in sentences.
-std::vector<std::string> notes_on_groups(const std::vector<Measurement>& tables);
-
 }  // namespace coagula::diagnose

@@ -4,15 +4,22 @@
 
 #include <coagula/diagnose/check_data.hpp>
 #include <coagula/diagnose/diagnosis.hpp>
+#include <coagula/diagnose/lone_tables.hpp>
 #include <coagula/diagnose/noise.hpp>
+#include <coagula/diagnose/outliers.hpp>
+#include <coagula/diagnose/replicate_groups.hpp>
 #include <coagula/diagnose/step_test.hpp>
 #include <coagula/experiment/experiment_file.hpp>
 #include <coagula/experiment/experiment_structures.hpp>
 
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace coagula::experiment {
+
+/// Something that a reader should know about the data, where it is no sentence yet.
+using Finding = std::variant<std::string, diagnose::Outlier, diagnose::LoneTable, diagnose::ReplicateGroups>;
 
 struct CheckedExperiment {
     ExperimentFile file;  ///< ready to be diagnosed: step tests as frequency sweeps, waveforms as harmonics
@@ -21,6 +28,7 @@ struct CheckedExperiment {
     std::vector<diagnose::NoiseModel> noise = {};            ///< of the tables
     diagnose::DiagnosisOptions options = {};                 ///< with the errors of the experiment
     ExperimentStructures structures = {};
+    std::vector<Finding> findings = {};  ///< beside the notes of the file
 };
 
 /// Reads an experiment and refuses all that a diagnosis would refuse before it simulates. Throws InputError with a sentence that

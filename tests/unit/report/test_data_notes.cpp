@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the checks of the data found is written as sentences.
+#include <coagula/report/data_notes.hpp>
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace coagula::report {
+namespace {
+
+using diagnose::GroupedBy;
+using diagnose::LoneTable;
+using diagnose::NoiseModel;
+using diagnose::ReplicateGroups;
+
+/// The sentence about one finding.
+std::string sentence_on(experiment::Finding finding) {
+    experiment::CheckedExperiment checked;
+    checked.tables.resize(1);
+    checked.tables[0].measurement.label = "sweep of B";
+    checked.tables[0].measurement.sample = "B";
+    checked.findings.push_back(std::move(finding));
+    return notes_on(checked).front();
+}
+
+TEST(DataNotes, ALoneTableIsToldByItsFactorOrAngle) {
+    EXPECT_NE(sentence_on(LoneTable{"sweep of B", "B", "complex_modulus", 1e-3})
+                  .find("sweep of B, sample 'B': |G*| is 1000 times smaller than that of its replicates"),
+              std::string::npos);
+    EXPECT_NE(sentence_on(LoneTable{"sweep of C", "C", "phase", 0.2}).find("lies 11.5 degrees above that of its replicates"),
+              std::string::npos);
+    EXPECT_NE(sentence_on(LoneTable{"sweep of B", "B", "complex_modulus", 10, true, "sweep of A"})
+                  .find("than that of its replicate, sweep of A"),
+              std::string::npos);
+}
+
+TEST(DataNotes, GroupsAreToldByWhatTheyDifferIn) {
+    const ReplicateGroups sample{GroupedBy::single_sample, {"C"}, 0.09, 0.014, "frequency-sweep"};
+    EXPECT_NE(sentence_on(sample).find("sample 'C' and the others differ by 9 %"), std::string::npos);
+    const ReplicateGroups day{GroupedBy::day, {"1", "2"}, 0.09, 0.014, "frequency-sweep"};
+    EXPECT_NE(sentence_on(day).find("tables of different days differ by"), std::string::npos);
+}
+
+TEST(DataNotes, AnOutlierIsARowOrASample) {
+    EXPECT_EQ(sentence_on(diagnose::Outlier{0, 4, 10, "10 times as large as"}),
+              "sweep of B, sample 'B': row 5 is left out as an outlier, |G*| is 10 times as large as in the rows beside it");
+    EXPECT_EQ(sentence_on(diagnose::Outlier{0, std::nullopt, 0.4, "2.5 times as small as"}),
+              "sweep of B: sample 'B' is left out as an outlier, its |G*| is 2.5 times as small as that of the others");
+}
+
+TEST(DataNotes, SayWhereNoiseComesFrom) {
+    NoiseModel noise;
+    EXPECT_NE(source_of(noise).find("no replicates"), std::string::npos);
+    noise.rows_estimated = true;
+    noise.floor_is_told = false;
+    EXPECT_NE(source_of(noise).find("too similar"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace coagula::report
