@@ -3,7 +3,8 @@
 #include <coagula/diagnose/waveform.hpp>
 
 #include "chain/forward.hpp"
-#include "data/normal_number.hpp"
+#include "data/table_cells.hpp"
+#include "noise/error_model.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -57,6 +58,12 @@ Experiment prepared(Experiment experiment) {
     return experiment;
 }
 
+/// What would be measured, and what one would know of its errors.
+struct Drawn {
+    Experiment experiment;
+    ErrorSpec errors;
+};
+
 /// Draws data sets of a planned experiment.
 class Planned {
 public:
@@ -71,10 +78,11 @@ public:
     Eigen::VectorXd expected(const Model& model) const { return forward_.predict(model); }
 
     /// What would be measured where the truth is `expected`, with errors and effects of the samples.
-    Experiment draw(const Eigen::VectorXd& expected, std::uint64_t number) const;
+    Drawn draw(const Eigen::VectorXd& expected, std::uint64_t number) const;
 
 private:
-    double deviation(std::size_t k, double value, double complex_modulus) const;
+    Drawn with_values(const Eigen::VectorXd& values) const;
+    TableErrors errors_of(const Measurement& table) const;
 
     Experiment experiment_;
     std::vector<Observation> observations_;
@@ -82,50 +90,52 @@ private:
     const PowerOptions& options_;
 };
 
-double Planned::deviation(std::size_t k, double value, double complex_modulus) const {
-    const Observation& one = observations_[k];
-    if (is<Harmonic>(one)) {
-        return std::hypot(one.standard_error, third_harmonic_error * value);
+/// Errors that are stated of torque and phase, of one modulus alone those of the torque, and those of third harmonics.
+TableErrors Planned::errors_of(const Measurement& table) const {
+    const StatedNoise& noise = options_.noise;
+    TableErrors errors{.polar = find_column(table, "storage_modulus") != nullptr && find_column(table, "loss_modulus") != nullptr};
+    for (const Column& column : table.columns) {
+        if (!is_planned(column)) {
+            continue;
+        }
+        ColumnErrors own{column.name};
+        for (std::size_t row = 0; row < table.rows(); ++row) {
+            const double size = errors.polar ? complex_modulus(table, row) : std::abs(column.values[row]);
+            const double strain = cell(table, "strain", row);
+            const double torque = std::hypot(std::isfinite(strain) ? noise.floor / strain : noise.floor, noise.relative * size);
+            own.deviations.push_back(table.kind == MeasurementKind::harmonics
+                                         ? std::hypot(unstated_harmonic_error, third_harmonic_error * size)
+                                     : errors.polar && column.name == "loss_modulus" ? noise.phase * size
+                                                                                     : torque);
+        }
+        errors.columns.push_back(std::move(own));
     }
-    const double weight = std::isfinite(one.strain) ? 1 / one.strain : 1.0;
-    const double row = std::hypot(options_.noise.floor * weight, options_.noise.relative * value);
-    return is_loss(one) ? std::hypot(row, options_.noise.phase * complex_modulus) : row;
+    return errors;
 }
 
-Experiment Planned::draw(const Eigen::VectorXd& expected, std::uint64_t number) const {
-    constexpr std::uint64_t first_step = 5000000;  // beyond those of bootstrap, gain and proposal
-    const std::uint64_t seed = options_.diagnosis.seed;
-    const std::size_t count = observations_.size();
-    std::map<std::string, double> factor;
-    for (const Measurement& table : experiment_.measurements) {
-        factor.try_emplace(table.sample,
-                           1 + options_.noise.sample * normal_number(seed, first_step + number, count + factor.size()));
-    }
-    const Eigen::ArrayXd sizes = complex_moduli(observations_, expected);
-    const Eigen::VectorXd structures = forward_.structure_deviation(expected);  // of what is measured from what is simulated
-    Experiment drawn = experiment_;
-    for (Measurement& table : drawn.measurements) {
-        for (Column& column : table.columns) {
-            if (is_planned(column)) {
-                column.standard_errors.assign(column.values.size(), unset);
-            }
-        }
-    }
-    for (std::size_t k = 0; k < count; ++k) {
+/// The planned tables with these numbers.
+Drawn Planned::with_values(const Eigen::VectorXd& values) const {
+    Drawn drawn{experiment_, options_.diagnosis.errors};
+    for (std::size_t k = 0; k < observations_.size(); ++k) {
         const Observation& one = observations_[k];
-        Measurement& table = drawn.measurements[one.measurement];
-        const double scale = is<Harmonic>(one) ? 1.0 : factor[table.sample];
-        const auto i = static_cast<Index>(k);
-        const double unlike = structures[i] * normal_number(seed, first_step + number, count + factor.size() + k);
-        const double truth = scale * (expected[i] + unlike);
-        const double complex_modulus = scale * sizes[i];
-        const double value = truth + deviation(k, truth, complex_modulus) * normal_number(seed, first_step + number, k);
-        const auto column = std::find_if(table.columns.begin(), table.columns.end(),
-                                         [&](const Column& each) { return each.name == observable_of(one).key; });
-        column->values[one.row] = value;
-        column->standard_errors[one.row] = deviation(k, value, complex_modulus);  // who measures knows no more than this
+        std::vector<Column>& columns = drawn.experiment.measurements[one.measurement].columns;
+        const auto column =
+            std::find_if(columns.begin(), columns.end(), [&](const Column& each) { return each.name == observable_of(one).key; });
+        column->values[one.row] = values[static_cast<Index>(k)];
+    }
+    drawn.errors.tables.clear();
+    for (const Measurement& table : drawn.experiment.measurements) {
+        drawn.errors.tables.push_back(errors_of(table));
     }
     return drawn;
+}
+
+Drawn Planned::draw(const Eigen::VectorXd& expected, std::uint64_t number) const {
+    constexpr std::uint64_t first_step = 5000000;  // beyond those of bootstrap, gain and proposal
+    const Drawn truth = with_values(expected);
+    DataSet data = data_set_of(truth.experiment, truth.errors);
+    data.noise.widen(forward_.structure_deviation(expected));  // of what is measured from what is simulated
+    return with_values(ErrorModel(data).drawn_about(expected, options_.diagnosis.seed, first_step + number));
 }
 
 /// Searches the strengths of one cause.
@@ -163,9 +173,10 @@ PowerPoint Search::measure(double place, int data_sets) const {
     const Eigen::VectorXd expected = planned_.expected(truth_at(value));
     int found = 0;
     for (int k = 0; k < data_sets; ++k) {
-        const Experiment drawn = planned_.draw(expected, static_cast<std::uint64_t>(k));
+        const Drawn drawn = planned_.draw(expected, static_cast<std::uint64_t>(k));
+        test_only.errors = drawn.errors;
         test_only.seed = options_.diagnosis.seed + static_cast<std::uint64_t>(k);  // or all share the errors of one bootstrap
-        found += diagnose(drawn, simulator_, test_only).p_value <= options_.diagnosis.level ? 1 : 0;
+        found += diagnose(drawn.experiment, simulator_, test_only).p_value <= options_.diagnosis.level ? 1 : 0;
     }
     return {value, share_of(found, data_sets)};
 }
@@ -215,9 +226,11 @@ Threshold threshold(const std::vector<PowerPoint>& points, double probability) {
 NamingRuns Search::name(double value) const {
     NamingRuns result{.strength = value};
     const Eigen::VectorXd expected = planned_.expected(truth_at(value));
+    DiagnosisOptions whole = options_.diagnosis;
     for (; result.runs < options_.diagnoses; ++result.runs) {
-        const Experiment drawn = planned_.draw(expected, 100000 + static_cast<std::uint64_t>(result.runs));
-        const Diagnosis found = diagnose(drawn, simulator_, options_.diagnosis);
+        const Drawn drawn = planned_.draw(expected, 100000 + static_cast<std::uint64_t>(result.runs));
+        whole.errors = drawn.errors;
+        const Diagnosis found = diagnose(drawn.experiment, simulator_, whole);
         const auto& set = found.credible_set;
         const bool inside = std::find(set.begin(), set.end(), mechanism_.name) != set.end();
         result.missed += found.verdict == Verdict::no_discrepancy ? 1 : 0;
@@ -322,9 +335,10 @@ Power find_power(const Experiment& experiment, Simulator& simulator, const Power
     const Eigen::VectorXd expected = planned.expected(base);
     int found = 0;
     for (int k = 0; k < options.data_sets; ++k) {
-        const Experiment drawn = planned.draw(expected, static_cast<std::uint64_t>(k));
+        const Drawn drawn = planned.draw(expected, static_cast<std::uint64_t>(k));
+        test_only.errors = drawn.errors;
         test_only.seed = options.diagnosis.seed + static_cast<std::uint64_t>(k);
-        found += diagnose(drawn, simulator, test_only).p_value <= options.diagnosis.level ? 1 : 0;
+        found += diagnose(drawn.experiment, simulator, test_only).p_value <= options.diagnosis.level ? 1 : 0;
     }
     power.by_chance = share_of(found, options.data_sets);
 

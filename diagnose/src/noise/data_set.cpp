@@ -103,6 +103,33 @@ Eigen::MatrixXd RowNoise::whitened(Eigen::MatrixXd columns) const {
     return columns;
 }
 
+Eigen::VectorXd RowNoise::coloured(const Eigen::VectorXd& white) const {
+    Eigen::VectorXd values = white;
+    std::vector<Index> next(previous.size(), -1);
+    for (std::size_t row = 0; row < previous.size(); ++row) {
+        if (previous[row] >= 0) {
+            next[static_cast<std::size_t>(previous[row])] = static_cast<Index>(row);
+        }
+    }
+    for (std::size_t first = 0; first < previous.size(); ++first) {
+        auto before = static_cast<Index>(first);
+        while (previous[first] < 0 && next[static_cast<std::size_t>(before)] >= 0) {
+            const Index row = next[static_cast<std::size_t>(before)];
+            values[row] = correlation[row] * values[before] + std::sqrt(1 - correlation[row] * correlation[row]) * white[row];
+            before = row;
+        }
+    }
+    values = values.cwiseProduct(deviation);
+    for (Index storage = 0; storage < static_cast<Index>(partner.size()); ++storage) {
+        if (const Index loss = partner[static_cast<std::size_t>(storage)]; loss > storage) {
+            const double along = values[storage];
+            values[storage] = cosine[storage] * along - sine[storage] * values[loss];
+            values[loss] = sine[storage] * along + cosine[storage] * values[loss];
+        }
+    }
+    return values;
+}
+
 Eigen::VectorXd RowNoise::marginal_deviation() const {
     Eigen::VectorXd all = deviation;
     for (Index row = 0; row < static_cast<Index>(partner.size()); ++row) {

@@ -28,6 +28,8 @@ struct RowNoise {
     /// Values over the deviation and freed from the correlation: independent with unit variance if they are such errors.
     Eigen::VectorXd whiten(const Eigen::VectorXd& values) const;
     Eigen::MatrixXd whitened(Eigen::MatrixXd columns) const;
+    /// Errors of which these are the whitened ones.
+    Eigen::VectorXd coloured(const Eigen::VectorXd& white) const;
     /// Deviation of each value.
     Eigen::VectorXd marginal_deviation() const;
     double log_determinant() const;

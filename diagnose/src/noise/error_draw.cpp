@@ -94,4 +94,15 @@ Eigen::VectorXd ErrorModel::draw(std::uint64_t seed, std::uint64_t number) const
     return errors;
 }
 
+Eigen::VectorXd ErrorModel::drawn_about(const Prediction& prediction, std::uint64_t seed, std::uint64_t number) const {
+    const Eigen::VectorXd drawn = draw(seed, number);
+    Eigen::VectorXd values = prediction.without_errors() + data_.noise.coloured(drawn.head(size()));
+    for (Index k = 0; k < size() && drawn.size() > size(); ++k) {
+        if (const Index sample = data_.sample[static_cast<std::size_t>(k)]; sample >= 0) {
+            values[k] += data_.effect * drawn[size() + sample] * prediction.level_slope[k];
+        }
+    }
+    return values;
+}
+
 }  // namespace coagula::diagnose

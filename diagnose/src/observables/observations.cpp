@@ -6,6 +6,8 @@
 #include "row_conditions.hpp"
 #include "structure_observations.hpp"
 
+#include <coagula/diagnose/waveform.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,9 +20,6 @@
 namespace coagula::diagnose {
 
 namespace {
-
-/// Standard deviation of a third harmonic over the first where the table states none.
-constexpr double unstated_error = 5e-3;
 
 /// A column that shows a response to shear, and what it shows.
 struct Shown {
@@ -64,7 +63,7 @@ Observation observation_at(const RowConditions& conditions, const Measurement& t
         one.standard_error = known->deviations[row];
         one.errors = known->law;
     } else if (is<Harmonic>(one)) {
-        one.standard_error = unstated_error;
+        one.standard_error = unstated_harmonic_error;
     }
     if (auto* modulus = std::get_if<Modulus>(&one.what);
         modulus != nullptr && number < errors.tables.size() && errors.tables[number].polar) {

@@ -307,6 +307,15 @@ TEST(RowNoise, WhitensErrorsOfTorqueAndPhase) {
     EXPECT_NEAR(data.noise.log_determinant(), std::log(covariance.determinant()), 1e-9);
 }
 
+/// Colouring undoes whitening.
+TEST(RowNoise, ColoursWhatItWhitens) {
+    const Eigen::VectorXd white = Eigen::VectorXd::LinSpaced(40, -1, 2).array().sin();
+    for (const DataSet& data : {correlated(), Turning::data()}) {
+        const Eigen::VectorXd own = white.head(data.size());
+        EXPECT_LT((data.noise.whiten(data.noise.coloured(own)) - own).cwiseAbs().maxCoeff(), 1e-12);
+    }
+}
+
 TEST(RowNoise, OfOneModulusAloneIsItsOwn) {
     const DataSet data = Turning::data();
     std::vector<Index> storage(Turning::rows);

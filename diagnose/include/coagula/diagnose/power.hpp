@@ -82,11 +82,11 @@ struct Power {
 };
 
 /// Simulates the planned experiment with each cause of the catalogue that it can show, over the physical range of its strength, and
-/// diagnoses the data. Errors: of a row sqrt((w floor)^2 + (relative level)^2), and for G'' the phase times |G*| besides; a factor
-/// of each sample; of a part of a third harmonic over the first 0.005 and a quarter of it. Moduli in the tables are ignored; a
-/// table without a column of loss moduli plans to measure them unless it has one of storage moduli only. A table of kind
-/// `harmonics` plans waveforms, of which the moduli are those of a sweep. Throws InputError when there is no table of moduli, fewer
-/// than five rows, or a cause that is not in the catalogue.
+/// diagnoses the data. Errors: of the torque sqrt((w floor)^2 + (relative |G*|)^2), of the phase, and of a modulus alone as of the
+/// torque; a factor of each sample; of a part of a third harmonic over the first 0.005 and a quarter of it. Moduli in the tables
+/// are ignored; a table without a column of loss moduli plans to measure them unless it has one of storage moduli only. A table of
+/// kind `harmonics` plans waveforms, of which the moduli are those of a sweep. Throws InputError when there is no table of moduli,
+/// fewer than five rows, or a cause that is not in the catalogue.
 Power find_power(const Experiment& experiment, Simulator& simulator, const PowerOptions& given = {}, const Progress& progress = {});
 
 }  // namespace coagula::diagnose

@@ -12,6 +12,8 @@ namespace coagula::diagnose {
 
 /// Part of a third harmonic to which its simulation knows it: explicit runs of two structures scatter by that.
 constexpr double third_harmonic_error = 0.25;
+/// Standard deviation of a part of a third harmonic over the first where nobody states it.
+constexpr double unstated_harmonic_error = 5e-3;
 
 struct WaveformHarmonics {
     double strain;             ///< amplitude of the first harmonic
