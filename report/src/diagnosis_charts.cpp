@@ -159,7 +159,7 @@ Json data_chart(const Shown& shown, const Diagnosis& diagnosis, const std::strin
         }
         for (std::size_t other = 0; other < diagnosis.others.size(); ++other) {
             const diagnose::OtherPrediction& prediction = diagnosis.others[other];
-            series.push_back(joined(line("with " + prediction.cause, colours.at(other % colours.size()),
+            series.push_back(joined(line("with " + name_of(prediction.cause), colours.at(other % colours.size()),
                                          [&](std::size_t k) { return prediction.fitted[k]; }),
                                     {{"hidden", true}}));
         }

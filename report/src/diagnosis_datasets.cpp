@@ -105,7 +105,7 @@ void add_predictions(Results& results, const Diagnosis& found) {
     numbers("extended_residual", &PredictedRow::extended_residual, "1", "standardised residual without the effects of the samples");
     for (const diagnose::OtherPrediction& other : found.others) {
         results.push_back(
-            io::vector(path + "others/" + other.cause,
+            io::vector(path + "others/" + name_of(other.cause),
                        Eigen::Map<const Eigen::VectorXd>(other.values.data(), static_cast<Index>(other.values.size())), "Pa",
                        "prediction with this cause, without the effect of the sample"));
     }
@@ -138,7 +138,7 @@ void add_detection(Results& results, const Diagnosis& found) {
 
 void add_causes(Results& results, const Diagnosis& found) {
     const std::string path = group + "causes/";
-    results.push_back(io::text(path + "names", lines(found.causes, [](const Cause& cause) { return cause.name; }),
+    results.push_back(io::text(path + "names", lines(found.causes, [](const Cause& cause) { return cause.name(); }),
                                "causes that were compared, most probable first, one per line"));
     results.push_back(io::vector(path + "posterior", over(found.causes, [](const Cause& cause) { return cause.posterior; }), "1",
                                  "probability of each cause"));
@@ -146,14 +146,14 @@ void add_causes(Results& results, const Diagnosis& found) {
                                  "1", "logarithm of the evidence of each cause"));
     std::vector<const Cause*> all{&found.base};
     for (const Cause& cause : found.causes) {
-        if (cause.name != found.base.name && !cause.parameters.empty()) {
+        if (!cause.set.is_base() && !cause.parameters.empty()) {
             all.push_back(&cause);
         }
     }
     for (const Cause* cause : all) {
         for (std::size_t k = 0; k < cause->parameters.size(); ++k) {
             const diagnose::EstimatedParameter& parameter = cause->parameters[k];
-            const std::string place = group + "parameters/" + cause->name + "/" + parameter.name + "/";
+            const std::string place = group + "parameters/" + cause->name() + "/" + parameter.name + "/";
             results.push_back(io::scalar(place + "value", parameter.value, parameter.unit, "most probable value"));
             results.push_back(io::scalar(place + "low", parameter.low, parameter.unit, "5 % quantile"));
             results.push_back(io::scalar(place + "high", parameter.high, parameter.unit, "95 % quantile"));
@@ -241,10 +241,9 @@ Results datasets_of(const DiagnosisRecord& record) {
         verdict += (verdict.empty() ? "" : " ") + sentence;
     }
     results.push_back(io::text(group + "verdict", diagnose::name_of(found.verdict), verdict));
-    const auto itself = [](const std::string& name) { return name; };
-    results.push_back(io::text(group + "credible_set", lines(found.credible_set, itself),
+    results.push_back(io::text(group + "credible_set", lines(found.credible_set, [](const auto& set) { return name_of(set); }),
                                "smallest set of causes with 95 % of the posterior, one per line"));
-    results.push_back(io::text(group + "certain_causes", lines(found.certain, itself),
+    results.push_back(io::text(group + "certain_causes", lines(names_in(found.certain), [](const auto& name) { return name; }),
                                "causes that every member of that set is or has, one per line"));
     add_tables(results, record.experiment, record.errors);
     add_predictions(results, found);

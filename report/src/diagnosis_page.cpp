@@ -123,7 +123,7 @@ std::string data_and_models(const DiagnosisRecord& record, Charts& charts) {
         }
         const auto effect = std::find_if(found.base_effects.begin(), found.base_effects.end(),
                                          [&](const auto& one) { return one.sample == table.sample; });
-        const std::string extended = cause == nullptr ? "" : cause->name;
+        const std::string extended = cause == nullptr ? "" : cause->name();
         html += image_table(found, k, extended);
         html += table_charts(charts, table, k, found, extended);
         html += paragraph(
@@ -145,7 +145,8 @@ std::string causes(const Diagnosis& found) {
     std::string html = heading("Causes");
     html += paragraph(
         "The bars show the probability of each cause, given the data and the physical range of its parameters. " +
-        (found.credible_set.empty() ? std::string{} : "The 95 % set: <b>" + escaped(joined(found.credible_set)) + "</b>.") +
+        (found.credible_set.empty() ? std::string{}
+                                    : "The 95 % set: <b>" + escaped(joined(names_of(found.credible_set))) + "</b>.") +
         " The test of the base model, applied to the best cause, gives p = " + print_number(found.extended_p_value) + "." +
         (found.remainder.detected ? (found.remainder.most ? " Most of the deviation remains: " : " A deviation remains: ") +
                                         escaped(sentence_on(found.remainder)) + "."
@@ -162,8 +163,8 @@ std::string causes(const Diagnosis& found) {
             continue;
         }
         const auto& set = found.credible_set;
-        const bool inside = std::find(set.begin(), set.end(), cause.name) != set.end();
-        rows.push_back({"<span class=\"name\">" + escaped(cause.name) + "</span>",
+        const bool inside = std::find(set.begin(), set.end(), cause.set) != set.end();
+        rows.push_back({"<span class=\"name\">" + escaped(cause.name()) + "</span>",
                         std::string("<div class=\"") + (inside ? "inside" : "outside") +
                             "\"><div class=\"bar\"><span style=\"width:" +
                             replaced(printed(100 * std::max(cause.posterior, 0.002)), "−", "-") + "%\"></span></div></div>",
@@ -180,7 +181,7 @@ std::string parameters(const Diagnosis& found) {
     std::vector<std::vector<std::string>> rows;
     const auto add = [&](const Cause& cause) {
         for (const diagnose::EstimatedParameter& parameter : cause.parameters) {
-            rows.push_back({"<span class=\"name\">" + escaped(cause.name) + "</span>", readable(parameter.name),
+            rows.push_back({"<span class=\"name\">" + escaped(cause.name()) + "</span>", readable(parameter.name),
                             "<span class=\"number\">" +
                                 (leaves_open(parameter) ? "open" : printed(parameter.value, parameter.unit)) + "</span>",
                             printed(parameter.low, parameter.unit) + " to " + printed(parameter.high, parameter.unit) +
@@ -191,8 +192,8 @@ std::string parameters(const Diagnosis& found) {
     const Cause* drawn = extended_cause(found);
     for (const Cause& cause : found.causes) {
         const auto& set = found.credible_set;
-        const bool inside = std::find(set.begin(), set.end(), cause.name) != set.end();
-        if ((inside || &cause == drawn) && cause.name != found.base.name) {
+        const bool inside = std::find(set.begin(), set.end(), cause.set) != set.end();
+        if ((inside || &cause == drawn) && !cause.set.is_base()) {
             add(cause);
         }
     }
@@ -206,7 +207,7 @@ std::string gain(const DiagnosisRecord& record, Charts& charts) {
         return html + paragraph("There are too few rows to hold some out.");
     }
     html += paragraph(std::to_string(gain.held_out) + " numbers were held out" + (gain.chosen.size() > 1 ? " in turn" : "") +
-                      "; the cause was chosen and fitted on the rest (" + escaped(list_of(gain.chosen)) +
+                      "; the cause was chosen and fitted on the rest (" + escaped(list_of(names_of(gain.chosen))) +
                       "). Their prediction misses by " + percent(gain.rmse_base) + " of |G*| (rms) with the base model, by " +
                       percent(gain.rmse_flexible) + " with a smooth correction of it, and by <b>" + percent(gain.rmse_extended) +
                       "</b> with that cause: a factor of " + printed(gain.rmse_ratio) + ". The log predictive density changes by " +
@@ -278,7 +279,7 @@ std::string diagnosis_page(const DiagnosisRecord& record) {
     }
     Json data = {{"charts", charts.all()}, {"causes", Json::array()}};
     for (const Cause& cause : found.causes) {
-        data["causes"].push_back({{"name", "with " + cause.name}, {"probability", probability_text(cause.posterior)}});
+        data["causes"].push_back({{"name", "with " + cause.name()}, {"probability", probability_text(cause.posterior)}});
     }
     return html_page((record.experiment.title.empty() ? "Diagnosis" : record.experiment.title) + " – coagula",
                      head + body + page_data(data) + page_script(diagnosis_script), "text");

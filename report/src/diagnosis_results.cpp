@@ -34,7 +34,7 @@ Json parameters_json(const Cause& cause) {
 }
 
 Json cause_json(const Cause& cause) {
-    return {{"name", cause.name},
+    return {{"name", cause.name()},
             {"posterior", cause.posterior},
             {"log_evidence", number(cause.log_evidence)},
             {"leaves_remainder", cause.leaves_remainder},
@@ -167,9 +167,8 @@ bool is_least_p(const Diagnosis& diagnosis) {
 }
 
 const Cause* extended_cause(const Diagnosis& diagnosis) {
-    const auto best = std::find_if(diagnosis.causes.begin(), diagnosis.causes.end(), [&](const Cause& cause) {
-        return !cause.parameters.empty() && cause.name != diagnosis.base.name;
-    });
+    const auto best = std::find_if(diagnosis.causes.begin(), diagnosis.causes.end(),
+                                   [&](const Cause& cause) { return !cause.parameters.empty() && !cause.set.is_base(); });
     return diagnosis.detected && best != diagnosis.causes.end() ? &*best : nullptr;
 }
 
@@ -199,8 +198,8 @@ Json to_json(const Diagnosis& diagnosis, const std::vector<diagnose::NoiseModel>
                  {"observations", diagnosis.observations},
                  {"base", cause_json(diagnosis.base)},
                  {"causes", Json::array()},
-                 {"credible_set", diagnosis.credible_set},
-                 {"certain_causes", diagnosis.certain},
+                 {"credible_set", names_of(diagnosis.credible_set)},
+                 {"certain_causes", names_in(diagnosis.certain)},
                  {"where", Json::array()},
                  {"rows", Json::array()}};
     for (const Cause& cause : diagnosis.causes) {
@@ -230,7 +229,7 @@ Json to_json(const Diagnosis& diagnosis, const std::vector<diagnose::NoiseModel>
                              {"where", sentence_on(diagnosis.remainder)},
                              {"most", diagnosis.remainder.most}};
         json["gain"] = {{"held_out", gain.held_out},
-                        {"chosen", gain.chosen},
+                        {"chosen", names_of(gain.chosen)},
                         {"rmse_base", number(gain.rmse_base)},
                         {"rmse_extended", number(gain.rmse_extended)},
                         {"rmse_flexible", number(gain.rmse_flexible)},
@@ -268,13 +267,13 @@ Table table_of(const Diagnosis& diagnosis) {
         lines.emplace_back("where", sentence_on(misfit));
     }
     lines.emplace_back("follows", describe(diagnosis.follows));
-    lines.emplace_back("95 % set of causes", list_of(diagnosis.credible_set));
-    if (diagnosis.credible_set.size() > 1 && !diagnosis.certain.empty()) {
-        lines.emplace_back("in every member of that set", list_of(diagnosis.certain));
+    lines.emplace_back("95 % set of causes", list_of(names_of(diagnosis.credible_set)));
+    if (diagnosis.credible_set.size() > 1 && !diagnosis.certain.is_base()) {
+        lines.emplace_back("in every member of that set", list_of(names_in(diagnosis.certain)));
     }
     for (const Cause& cause : diagnosis.causes) {
         if (cause.posterior > 0.01) {
-            lines.emplace_back("  " + cause.name, describe(cause));
+            lines.emplace_back("  " + cause.name(), describe(cause));
         }
     }
     if (const std::string missing = missing_conditions(diagnosis.conditions); !missing.empty()) {

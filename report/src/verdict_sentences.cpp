@@ -35,18 +35,6 @@ std::string gained(const diagnose::Gain& gain) {
                                     change_of_density(gain, print_number) + ".";
 }
 
-/// Returns what is none of these causes in a member "a + b" of the credible set.
-std::string without(std::string member, const std::vector<std::string>& causes) {
-    const std::string joint = " + ";
-    for (const std::string& cause : causes) {
-        member = member == cause                     ? std::string{}
-                 : member.starts_with(cause + joint) ? member.substr(cause.size() + joint.size())
-                 : member.ends_with(joint + cause)   ? member.substr(0, member.size() - cause.size() - joint.size())
-                                                     : member;
-    }
-    return member;
-}
-
 struct AxisWords {
     Axis axis;
     const char* words;
@@ -120,28 +108,29 @@ std::string reasons(const Diagnosis& found) {
 /// What data tell that leave several causes: goes on after "The base model fails".
 std::string tied_sentence(const Diagnosis& found) {
     const std::string unknown = "hese data cannot tell whether ";
-    if (found.credible_set.size() == 2 && found.credible_set.back() == "none of the catalogue") {
+    if (found.credible_set.size() == 2 && found.credible_set.back().unknown) {
         const std::string why = reasons(found);
-        return "; " + found.credible_set.front() + " explains the data" + (why.empty() ? "" : ", but " + why) +
+        return "; " + name_of(found.credible_set.front()) + " explains the data" + (why.empty() ? "" : ", but " + why) +
                ". The cause may be another one, which the catalogue does not have.";
     }
-    if (found.certain.empty()) {
-        return "; t" + unknown + "the cause is " + joined(found.credible_set) + ".";
+    if (found.certain.is_base()) {
+        return "; t" + unknown + "the cause is " + joined(names_of(found.credible_set)) + ".";
     }
-    std::vector<std::string> others;
-    for (const std::string& member : found.credible_set) {
-        others.push_back(without(member, found.certain));
+    std::vector<diagnose::CauseSet> rest;
+    for (const diagnose::CauseSet& member : found.credible_set) {
+        rest.push_back(member.without(found.certain));
     }
-    const bool alone = std::erase(others, "") > 0;
-    const std::string certain = joined(found.certain);
-    return alone ? ", and " + certain + " is a cause. T" + unknown + joined(others) + " is another."
-                 : ", and " + certain + " is one cause. There is another; t" + unknown + "that is " + joined(others) + ".";
+    const bool alone = std::erase(rest, diagnose::CauseSet()) > 0;
+    const std::string others = joined(names_of(rest));
+    const std::string certain = joined(names_in(found.certain));
+    return alone ? ", and " + certain + " is a cause. T" + unknown + others + " is another."
+                 : ", and " + certain + " is one cause. There is another; t" + unknown + "that is " + others + ".";
 }
 
 std::string kind_only_sentence(const Diagnosis& found) {
     const Cause* best = extended_cause(found);
     const std::string why = reasons(found);
-    return "; no cause is certain. The most probable is " + (best == nullptr ? "none" : best->name) +
+    return "; no cause is certain. The most probable is " + (best == nullptr ? "none" : best->name()) +
            (why.empty() ? "." : ", but " + why + ".");
 }
 
@@ -150,9 +139,10 @@ std::vector<std::string> causes_of_kind(const Diagnosis& found) {
     constexpr std::size_t most = 4;
     std::vector<std::string> names;
     for (const Cause& cause : found.causes) {
-        const diagnose::Mechanism* mechanism = diagnose::find_mechanism(cause.name);
-        if (mechanism != nullptr && mechanism->kind == found.follows.kind && names.size() < most) {
-            names.push_back(cause.name);
+        const std::vector<std::size_t>& members = cause.set.members;
+        const bool single = members.size() == 1 && diagnose::catalogue()[members.front()].kind == found.follows.kind;
+        if (single && names.size() < most) {
+            names.push_back(cause.name());
         }
     }
     return names;
@@ -251,7 +241,7 @@ std::string verdict_sentence(const Diagnosis& found) {
             return fails + ", and no cause of the catalogue explains the deviation.";
         }
         const std::string why = reasons(found);
-        return fails + ". No cause of the catalogue is enough: the best is " + best->name +
+        return fails + ". No cause of the catalogue is enough: the best is " + best->name() +
                (why.empty() ? "." : ", but " + why + ".");
     }
     if (found.verdict == Verdict::tied) {
@@ -261,7 +251,7 @@ std::string verdict_sentence(const Diagnosis& found) {
         return fails + kind_only_sentence(found);
     }
     const Cause& cause = found.causes.front();
-    return fails + "; the cause is " + cause.name + ": " + cause.words + " (probability " + probability_text(cause.posterior) +
+    return fails + "; the cause is " + cause.name() + ": " + cause.words + " (probability " + probability_text(cause.posterior) +
            ")." + gained(found.gain);
 }
 
@@ -272,7 +262,7 @@ std::vector<std::string> verdict_sentences(const Diagnosis& found) {
         sentences.push_back(follows_sentence(found));
     }
     if (const Cause* best = extended_cause(found); best != nullptr && found.remainder.detected) {
-        sentences.push_back("The best cause, " + best->name + ", leaves " +
+        sentences.push_back("The best cause, " + best->name() + ", leaves " +
                             (found.remainder.most ? "most of the misfit: " : "a deviation: ") + sentence_on(found.remainder) + ".");
     }
     if (!found.proposals.empty() && found.proposals.front().resolution >= likely) {

@@ -78,15 +78,15 @@ void predict_rows(const DataSet& data, const Inference& inference, const Model& 
 }
 
 /// Predictions of the causes after the best one, also improbable ones: one sees where they miss the data.
-void predict_others(const Inference& inference, const std::string& best, Diagnosis& diagnosis) {
+void predict_others(const Inference& inference, const CauseSet& best, Diagnosis& diagnosis) {
     constexpr std::size_t most = 4;
     for (const Cause& cause : diagnosis.causes) {
-        const bool is_model = !cause.parameters.empty() && cause.name != diagnosis.base.name && cause.name != best;
+        const bool is_model = !cause.parameters.empty() && !cause.set.is_base() && cause.set != best;
         if (is_model && diagnosis.others.size() < most) {
             const Prediction prediction = inference.prediction(cause.model);
             const Eigen::VectorXd values = inference.fitted(prediction);
             const Eigen::VectorXd fitted = inference.as_fitted(prediction);
-            diagnosis.others.push_back({cause.name, {values.begin(), values.end()}, {fitted.begin(), fitted.end()}});
+            diagnosis.others.push_back({cause.set, {values.begin(), values.end()}, {fitted.begin(), fitted.end()}});
         }
     }
 }
@@ -105,8 +105,8 @@ void keep_statistics(const Detection& detection, Diagnosis& diagnosis) {
     diagnosis.bootstrap = detection.bootstrap;
 }
 
-const Fit& fit_named(const std::vector<Compared>& all, const std::string& name) {
-    return std::find_if(all.begin(), all.end(), [&](const Compared& one) { return name_of(one.fit.hypothesis) == name; })->fit;
+const Fit& fit_of(const std::vector<Compared>& all, const CauseSet& set) {
+    return std::find_if(all.begin(), all.end(), [&](const Compared& one) { return CauseSet(one.fit.hypothesis) == set; })->fit;
 }
 
 /// Proposes measurements that tell the causes of the credible set apart; no measurement is known that tells a single one from what
@@ -117,9 +117,9 @@ std::vector<Proposal> proposals_for(const Diagnosis& diagnosis, const std::vecto
     std::vector<double> weights;
     for (const Cause& cause : diagnosis.causes) {
         const bool in_set =
-            std::find(diagnosis.credible_set.begin(), diagnosis.credible_set.end(), cause.name) != diagnosis.credible_set.end();
-        if (in_set && cause.name != none_name && cause.name != "base") {
-            candidates.push_back(fit_named(all, cause.name));
+            std::find(diagnosis.credible_set.begin(), diagnosis.credible_set.end(), cause.set) != diagnosis.credible_set.end();
+        if (in_set && !cause.set.unknown) {
+            candidates.push_back(fit_of(all, cause.set));
             weights.push_back(cause.posterior);
         }
     }
@@ -170,7 +170,7 @@ Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const Dia
     diagnosis.gain = measure_gain(data, folds, experiment, simulator, possible, options);
     judge(comparison, inference, possible, options, diagnosis);
     predict_rows(data, inference, base.model, winner.fit.model, folds, diagnosis);
-    predict_others(inference, name_of(winner.fit.hypothesis), diagnosis);
+    predict_others(inference, winner.fit.hypothesis, diagnosis);
     if (diagnosis.verdict == Verdict::tied || diagnosis.verdict == Verdict::kind_only) {
         diagnosis.proposals = proposals_for(diagnosis, comparison.all, inference, simulator, options.seed);
     }

@@ -245,7 +245,7 @@ Gain measure_gain(const DataSet& all, const std::vector<std::vector<bool>>& fold
         }
         differences.push_back(std::move(of_extended));
         gain.held_out += held_rows.size();
-        gain.chosen.push_back(name_of(extended.hypothesis));
+        gain.chosen.emplace_back(extended.hypothesis);
     }
     const auto count = static_cast<double>(gain.held_out);
     gain.rmse_base = std::sqrt(base_squares / count);

@@ -227,20 +227,21 @@ NamingRuns Search::name(double value) const {
     NamingRuns result{.strength = value};
     const Eigen::VectorXd expected = planned_.expected(truth_at(value));
     DiagnosisOptions whole = options_.diagnosis;
+    const CauseSet truth = Hypothesis{&mechanism_};
     for (; result.runs < options_.diagnoses; ++result.runs) {
         const Drawn drawn = planned_.draw(expected, 100000 + static_cast<std::uint64_t>(result.runs));
         whole.errors = drawn.errors;
         const Diagnosis found = diagnose(drawn.experiment, simulator_, whole);
         const auto& set = found.credible_set;
-        const bool inside = std::find(set.begin(), set.end(), mechanism_.name) != set.end();
+        const bool inside = std::find(set.begin(), set.end(), truth) != set.end();
         result.missed += found.verdict == Verdict::no_discrepancy ? 1 : 0;
         result.none += found.verdict == Verdict::none_of_catalogue ? 1 : 0;
         const bool answered = found.verdict == Verdict::named || found.verdict == Verdict::tied;
         result.named += answered && inside && set.size() == 1 ? 1 : 0;
         result.tied += answered && inside && set.size() > 1 ? 1 : 0;
         result.misnamed += answered && !inside ? 1 : 0;
-        for (const std::string& other : set) {
-            result.rivals[other] += answered && other != mechanism_.name ? 1 : 0;
+        for (const CauseSet& other : set) {
+            result.rivals[name_of(other)] += answered && other != truth ? 1 : 0;
         }
     }
     std::erase_if(result.rivals, [](const auto& entry) { return entry.second == 0; });

@@ -25,12 +25,6 @@ constexpr double a_row_less = 6;       ///< logarithms of the likelihood that al
 constexpr double small_share = 0.1;    ///< of the base model's misfit that a named cause may leave
 constexpr double widest = 0.75;        ///< 90 % interval of a parameter over that of its prior
 
-/// Whether a pair "a + b" has this member.
-bool contains(const std::string& pair, const std::string& member) {
-    const std::string joint = " + ";
-    return pair.starts_with(member + joint) || pair.ends_with(joint + member);
-}
-
 bool holds(const std::vector<Condition>& conditions, const char* name) {
     return std::any_of(conditions.begin(), conditions.end(), [&](const Condition& one) { return one.name == name && one.holds; });
 }
@@ -46,15 +40,15 @@ bool fits(const std::vector<Condition>& conditions) {
 
 /// The fewest causes with 95 % of the posterior; the base model, which fails, is none. A pair of which one member explains the data
 /// alone, and better, adds no cause, nor does one that leaves as much over.
-std::vector<std::string> credible_set(const std::vector<Cause>& causes) {
-    std::vector<std::string> set;
+std::vector<CauseSet> credible_set(const std::vector<Cause>& causes) {
+    std::vector<CauseSet> set;
     double sum = 0;
     for (auto cause = causes.begin(); cause != causes.end() && sum < credible; ++cause) {
-        const bool adds = cause->name != "base" && std::none_of(causes.begin(), cause, [&](const Cause& better) {
-                              return (!better.leaves_remainder || cause->leaves_remainder) && contains(cause->name, better.name);
-                          });
+        const bool adds = !cause->set.is_base() && std::none_of(causes.begin(), cause, [&](const Cause& better) {
+            return (!better.leaves_remainder || cause->leaves_remainder) && cause->set.has_more_than(better.set);
+        });
         if (adds) {
-            set.push_back(cause->name);
+            set.push_back(cause->set);
         }
         sum += cause->posterior;
     }
@@ -62,16 +56,11 @@ std::vector<std::string> credible_set(const std::vector<Cause>& causes) {
 }
 
 /// Causes that every member of the set is or has.
-std::vector<std::string> common_causes(const std::vector<std::string>& set, const Hypothesis& possible) {
-    std::vector<std::string> common;
-    for (const Mechanism* one : possible) {
-        const bool in_all = !set.empty() && std::all_of(set.begin(), set.end(), [&](const std::string& name) {
-            return name == one->name || contains(name, one->name);
-        });
-        if (in_all) {
-            common.push_back(one->name);
-        }
-    }
+CauseSet common_causes(const std::vector<CauseSet>& set, const Hypothesis& possible) {
+    CauseSet common = set.empty() ? CauseSet() : CauseSet(possible);
+    std::erase_if(common.members, [&](std::size_t member) {
+        return std::any_of(set.begin(), set.end(), [&](const CauseSet& one) { return !one.contains(member); });
+    });
     return common;
 }
 
@@ -141,7 +130,7 @@ void rank_causes(const Comparison& comparison, const Inference& inference, const
         diagnosis.causes.back().posterior = posterior[k];
         diagnosis.causes.back().leaves_remainder = leaves_remainder;
     }
-    diagnosis.causes.push_back({.name = none_name,
+    diagnosis.causes.push_back({.set = CauseSet::none_of_catalogue(),
                                 .words = "a smooth deviation that no cause of the catalogue produces",
                                 .posterior = posterior.back(),
                                 .log_evidence = comparison.log_weight_of_none(priors) - priors.none});
@@ -238,7 +227,7 @@ std::vector<Condition> conditions_of(const Comparison& comparison, const Inferen
 /// certain and the cause has as much evidence as none.
 Verdict verdict_of(const Diagnosis& diagnosis) {
     constexpr double sure = 0.9;
-    const bool none_leads = diagnosis.causes.front().name == none_name;
+    const bool none_leads = diagnosis.causes.front().set.unknown;
     if (!fits(diagnosis.conditions)) {
         return none_leads || diagnosis.follows.posterior < sure ? Verdict::none_of_catalogue : Verdict::kind_only;
     }
@@ -254,7 +243,7 @@ bool is_level_alone(const Inference& inference, const Fit& winner) {
 }  // namespace
 
 Cause cause_of(const Fit& fit, const Inference& inference) {
-    Cause cause{.name = name_of(fit.hypothesis), .log_evidence = fit.log_evidence, .model = fit.model, .draws = fit.draws};
+    Cause cause{.set = fit.hypothesis, .log_evidence = fit.log_evidence, .model = fit.model, .draws = fit.draws};
     const auto add = [&](const std::string& name, const std::string& unit, const Posterior& posterior, bool at_end = false) {
         cause.parameters.push_back({name, unit, posterior.value, posterior.low, posterior.high, at_end});
     };

@@ -12,7 +12,6 @@
 namespace coagula::diagnose {
 
 /// The name of the member of the causes that no cause explains.
-inline constexpr const char* none_name = "none of the catalogue";
 
 /// A fit as what a diagnosis tells of it.
 Cause cause_of(const Fit& fit, const Inference& inference);

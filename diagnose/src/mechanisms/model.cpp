@@ -5,12 +5,49 @@
 
 namespace coagula::diagnose {
 
-std::string name_of(const Hypothesis& hypothesis) {
-    std::string name;
+CauseSet::CauseSet(const Hypothesis& hypothesis) {
     for (const Mechanism* mechanism : hypothesis) {
-        name += (name.empty() ? "" : " + ") + mechanism->name;
+        members.push_back(static_cast<std::size_t>(mechanism - catalogue().data()));
     }
-    return name.empty() ? "base" : name;
+}
+
+CauseSet CauseSet::none_of_catalogue() {
+    CauseSet set;
+    set.unknown = true;
+    return set;
+}
+
+bool CauseSet::has_more_than(const CauseSet& other) const {
+    return !other.members.empty() && other.members.size() < members.size() &&
+           std::all_of(other.members.begin(), other.members.end(), [&](std::size_t member) { return contains(member); });
+}
+
+CauseSet CauseSet::without(const CauseSet& other) const {
+    CauseSet rest = *this;
+    std::erase_if(rest.members, [&](std::size_t member) { return other.contains(member); });
+    return rest;
+}
+
+std::vector<std::string> names_in(const CauseSet& set) {
+    std::vector<std::string> names;
+    for (const std::size_t member : set.members) {
+        names.push_back(catalogue()[member].name);
+    }
+    return names;
+}
+
+std::string name_of(const CauseSet& set) {
+    std::string name;
+    for (const std::string& member : names_in(set)) {
+        name += (name.empty() ? "" : " + ") + member;
+    }
+    return set.unknown ? "none of the catalogue" : name.empty() ? "base" : name;
+}
+
+std::vector<std::string> names_of(const std::vector<CauseSet>& sets) {
+    std::vector<std::string> names(sets.size());
+    std::transform(sets.begin(), sets.end(), names.begin(), [](const CauseSet& set) { return name_of(set); });
+    return names;
 }
 
 std::vector<MechanismParameter> parameters_of(const Hypothesis& hypothesis) {

@@ -29,11 +29,11 @@ using namespace experiment;
 using namespace coagula::report;
 
 /// What a model of the contact cannot have of a cause.
-std::string outside_of_contact(const std::string& name) {
-    const std::string parts = " + " + name + " + ";
+std::string outside_of_contact(const diagnose::CauseSet& set) {
     std::string text;
-    for (const diagnose::Mechanism& mechanism : diagnose::catalogue()) {
-        if (!mechanism.in_contact && parts.find(" + " + mechanism.name + " + ") != std::string::npos) {
+    for (std::size_t place = 0; place < diagnose::catalogue().size(); ++place) {
+        const diagnose::Mechanism& mechanism = diagnose::catalogue()[place];
+        if (!mechanism.in_contact && set.contains(place)) {
             text += "# " + mechanism.name + " does not act in the contact; the contact below leaves it out.\n";
         }
     }
@@ -44,7 +44,7 @@ std::string outside_of_contact(const std::string& name) {
 const diagnose::Cause* best_cause(const diagnose::Diagnosis& diagnosis) {
     const auto& set = diagnosis.credible_set;
     const auto best = std::find_if(diagnosis.causes.begin(), diagnosis.causes.end(),
-                                   [&](const diagnose::Cause& cause) { return !set.empty() && cause.name == set.front(); });
+                                   [&](const diagnose::Cause& cause) { return !set.empty() && cause.set == set.front(); });
     return diagnosis.detected && best != diagnosis.causes.end() && !best->parameters.empty() ? &*best : nullptr;
 }
 
@@ -54,7 +54,7 @@ std::string model_text(const diagnose::Diagnosis& diagnosis, double radius) {
     if (best == nullptr || std::isnan(radius) || diagnosis.base.parameters.empty()) {
         return {};
     }
-    return "# " + best->name + ": " + best->words + "\n" + outside_of_contact(best->name) +
+    return "# " + best->name() + ": " + best->words + "\n" + outside_of_contact(best->set) +
            io::contact_model_text(diagnose::contact_model_of(best->model, radius));
 }
 

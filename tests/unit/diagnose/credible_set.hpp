@@ -9,7 +9,8 @@
 namespace coagula::diagnose {
 
 inline bool in_set(const Diagnosis& found, const std::string& name) {
-    return std::find(found.credible_set.begin(), found.credible_set.end(), name) != found.credible_set.end();
+    return std::any_of(found.credible_set.begin(), found.credible_set.end(),
+                       [&](const CauseSet& set) { return name_of(set) == name; });
 }
 
 /// The conditions of a name that do not hold, with their values.

@@ -123,7 +123,7 @@ TEST(ActivatedRupture, IsNamedFromSweepsAtTwoFrequencies) {
     const Diagnosis found = diagnosis_of(slow, fast);
     EXPECT_TRUE(found.detected);
     EXPECT_EQ(found.verdict, Verdict::named);
-    EXPECT_EQ(found.credible_set, std::vector<std::string>{"activated-rupture"});
+    EXPECT_EQ(names_of(found.credible_set), std::vector<std::string>{"activated-rupture"});
     ASSERT_EQ(found.causes.front().parameters.size(), 3U);
     const EstimatedParameter& growth = found.causes.front().parameters[2];
     const double truth = 0.5 * (fast - slow) / 3e-4;
@@ -136,7 +136,7 @@ TEST(ActivatedRupture, IsNamedFromSweepsAtTwoFrequencies) {
 TEST(ActivatedRupture, IsNotNamedWhereBondsBreakAtOneForce) {
     const Diagnosis found = diagnosis_of(3e-4, 3e-4);
     EXPECT_TRUE(found.detected);
-    EXPECT_EQ(found.causes.front().name, "bond-strength");
+    EXPECT_EQ(found.causes.front().name(), "bond-strength");
 }
 
 }  // namespace

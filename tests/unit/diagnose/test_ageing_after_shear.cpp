@@ -54,7 +54,7 @@ TEST(AgeingAfterShear, IsFoundWithItsExponent) {
     const Diagnosis found = diagnosis_of(build_up(true));
     EXPECT_TRUE(found.detected);
     const auto cause =
-        std::find_if(found.causes.begin(), found.causes.end(), [](const Cause& one) { return one.name == "ageing-after-shear"; });
+        std::find_if(found.causes.begin(), found.causes.end(), [](const Cause& one) { return one.name() == "ageing-after-shear"; });
     ASSERT_NE(cause, found.causes.end());
     const EstimatedParameter& exponent = cause->parameters[1];
     const double deviation = (exponent.high - exponent.low) / 3.29;  // of a 90 % interval
@@ -65,8 +65,8 @@ TEST(AgeingAfterShear, IsFoundWithItsExponent) {
     EXPECT_GT(found.gain.rmse_ratio, 5);
     // What grows with the strain cannot explain a run at one strain, nor can the logarithm of an old gel explain a factor of fifty.
     for (const Cause& other : found.causes) {
-        if (other.name == "contact-nonlinearity" || other.name == "bond-strength" || other.name == "ageing") {
-            EXPECT_GT(cause->log_evidence - other.log_evidence, 100) << other.name;
+        if (other.name() == "contact-nonlinearity" || other.name() == "bond-strength" || other.name() == "ageing") {
+            EXPECT_GT(cause->log_evidence - other.log_evidence, 100) << other.name();
         }
     }
 }

@@ -137,7 +137,7 @@ TEST(ContactLosses, ADashpotIsAloneOnceAnotherPlateWasTried) {
     wide.columns.push_back({"plate_radius", "m", std::vector<double>(frequencies.size(), 0.025)});
     const Diagnosis found = diagnosis_of({one, wide});
     EXPECT_EQ(found.verdict, Verdict::tied);
-    EXPECT_EQ(found.credible_set, (std::vector<std::string>{"contact-dashpot", "none of the catalogue"}));
+    EXPECT_EQ(names_of(found.credible_set), (std::vector<std::string>{"contact-dashpot", "none of the catalogue"}));
     const EstimatedParameter& time = found.causes.front().parameters[1];
     EXPECT_LT(time.low, 1e-3);
     EXPECT_GT(time.high, 1e-3);
@@ -160,7 +160,7 @@ TEST(ContactLosses, ARelaxationIsFoundWhereItsTimeIsPassed) {
         diagnosis_of({sweep(frequencies, moduli_of(hidden(), with_relaxation(0.5, 0.05), frequencies), 0.02, 7)});
     EXPECT_TRUE(found.detected);
     EXPECT_EQ(found.verdict, Verdict::tied);
-    EXPECT_EQ(found.credible_set, (std::vector<std::string>{"contact-relaxation", "none of the catalogue"}));
+    EXPECT_EQ(names_of(found.credible_set), (std::vector<std::string>{"contact-relaxation", "none of the catalogue"}));
     ASSERT_EQ(found.causes.front().parameters.size(), 3U);
     for (const auto& [number, truth] : {std::pair{1U, 0.5}, std::pair{2U, 0.05}}) {
         const EstimatedParameter& one = found.causes.front().parameters[number];

@@ -142,7 +142,7 @@ TEST(Gain, PredictsWhatIsHeldOutFromTheRestAlone) {
     constexpr double same = 0.1;  // Pa, of moduli of up to 6e5
     const Gain found = gain_of_last(1);
     const Gain other = gain_of_last(2);
-    ASSERT_EQ(found.chosen, std::vector<std::string>{"solvent-drag"});
+    ASSERT_EQ(names_of(found.chosen), std::vector<std::string>{"solvent-drag"});
     ASSERT_EQ(found.predictions.size(), 16U);
     for (std::size_t k = 0; k < found.predictions.size(); ++k) {
         EXPECT_NEAR(other.predictions[k].extended, found.predictions[k].extended, same);

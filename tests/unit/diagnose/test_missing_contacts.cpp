@@ -162,9 +162,9 @@ TEST(MissingContacts, AreInTheSetOfASeriesOfCoordinations) {
     EXPECT_FALSE(diagnosis_of(series(0, 1), 40).detected);
     const Diagnosis found = diagnosis_of(series(0.12, 2), 40);
     ASSERT_TRUE(found.detected);
-    EXPECT_TRUE(in_set(found, "missing-contacts")) << found.credible_set.front();
+    EXPECT_TRUE(in_set(found, "missing-contacts")) << name_of(found.credible_set.front());
     const auto cause =
-        std::find_if(found.causes.begin(), found.causes.end(), [](const Cause& one) { return one.name == "missing-contacts"; });
+        std::find_if(found.causes.begin(), found.causes.end(), [](const Cause& one) { return one.name() == "missing-contacts"; });
     EXPECT_LT(cause->parameters[1].low, 0.12);
     EXPECT_GT(cause->parameters[1].high, 0.12);
 }
@@ -195,7 +195,7 @@ TEST(MissingContacts, AreNeverNamedFromTheLevelAlone) {
     EXPECT_TRUE(found.detected);
     EXPECT_TRUE(found.level_alone);
     EXPECT_NE(found.verdict, Verdict::named);
-    EXPECT_TRUE(in_set(found, "missing-contacts")) << found.credible_set.front();
+    EXPECT_TRUE(in_set(found, "missing-contacts")) << name_of(found.credible_set.front());
     EXPECT_TRUE(in_set(found, "none of the catalogue"));
 }
 

@@ -93,7 +93,7 @@ Experiment pressed_gel(Load load, std::uint64_t seed) {
 TEST(NormalLoad, IsFoundWithItsPressureWhereModuliFollowTheForce) {
     const Diagnosis found = diagnosis_with(199, pressed_gel(Load::stiffens, 3));
     EXPECT_EQ(found.verdict, Verdict::tied) << missing_to_a_name(found);
-    EXPECT_EQ(found.credible_set, (std::vector<std::string>{"normal-load", "none of the catalogue"}))
+    EXPECT_EQ(names_of(found.credible_set), (std::vector<std::string>{"normal-load", "none of the catalogue"}))
         << "its three samples foretell each other with an interval that holds none";
     EXPECT_LT(found.causes.front().parameters[1].low, contact_pressure);
     EXPECT_GT(found.causes.front().parameters[1].high, contact_pressure);

@@ -154,7 +154,7 @@ TEST(PoreCurves, BesideCoordinatesShowWhatIsMissed) {
     const Measurement image = image_of(particles, image_errors(2e-8, 4e-8, 0.09, 0), 62);
     const Diagnosis found = diagnose_by_recipe({image, pore_table(as_spheres(image, particles))});
     EXPECT_EQ(found.verdict, Verdict::named) << missing_to_a_name(found);
-    EXPECT_EQ(found.credible_set, std::vector<std::string>{"localisation-error"});
+    EXPECT_EQ(names_of(found.credible_set), std::vector<std::string>{"localisation-error"});
     EXPECT_TRUE(found.base.parameters.empty());  // nothing shows a stiffness
     EXPECT_EQ(found.causes.front().draws.rows(), 4);
     const EstimatedParameter& missed = found.causes.front().parameters[2];

@@ -90,7 +90,7 @@ TEST(PoroelasticBackflow, IsNamedBetweenTwoGaps) {
     const Diagnosis found = diagnosis_with(199, samples_at({1e-3, 3e-3}, true, 4));
     ASSERT_TRUE(found.detected);
     EXPECT_EQ(found.verdict, Verdict::named);
-    EXPECT_EQ(found.credible_set, std::vector<std::string>{"poroelastic-backflow"});
+    EXPECT_EQ(names_of(found.credible_set), std::vector<std::string>{"poroelastic-backflow"});
     EXPECT_LT(found.causes.front().parameters[2].low, 1.2 * mobility);
     EXPECT_GT(found.causes.front().parameters[2].high, mobility / 1.2);
 }

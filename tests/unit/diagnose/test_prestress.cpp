@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contacts that pull at rest: what they do to the modulus, the extended model, and whether the pull is told from stiffer contacts.
 #include "chain/forward.hpp"
+#include "credible_set.hpp"
 #include "hidden_effects.hpp"
 #include "responses/prestress_response.hpp"
 
@@ -140,7 +141,7 @@ TEST(Prestress, IsTiedWithShearStiffnessWhereTheNormalStiffnessIsKnown) {
     EXPECT_TRUE(found.detected);
     EXPECT_EQ(found.verdict, Verdict::tied);
     for (const char* name : {"prestress", "shear-stiffness", "bond-bending"}) {
-        EXPECT_NE(std::find(found.credible_set.begin(), found.credible_set.end(), name), found.credible_set.end()) << name;
+        EXPECT_TRUE(in_set(found, name)) << name;
     }
     EXPECT_FALSE(diagnosis_of(unset, hidden, 12).detected);
     settings.tension = 0;

@@ -101,7 +101,7 @@ TEST(Polydispersity, HiddenInCoordinatesIsNamed) {
     const Diagnosis found = diagnose_by_recipe(tables);
     EXPECT_TRUE(found.detected);
     ASSERT_FALSE(found.causes.empty());
-    EXPECT_EQ(found.causes.front().name, "polydispersity");
+    EXPECT_EQ(found.causes.front().name(), "polydispersity");
     EXPECT_TRUE(in_set(found, "polydispersity"));
     EXPECT_GT(found.gain.rmse_ratio, 2);
     const EstimatedParameter& deviation = found.causes.front().parameters[0];
@@ -127,7 +127,7 @@ TEST(Polydispersity, TiesWithErrorsOfLocalisationUntilImagedTwice) {
 
     const Diagnosis errors = diagnose_by_recipe({repeated({once, seen_by_microscope(structure(400, 35), 2.5e-8, 2.5e-8, 0, 36)})});
     EXPECT_EQ(errors.verdict, Verdict::named);
-    EXPECT_EQ(errors.credible_set, std::vector<std::string>{"localisation-error"});
+    EXPECT_EQ(names_of(errors.credible_set), std::vector<std::string>{"localisation-error"});
     const EstimatedParameter& plane = errors.causes.front().parameters[0];
     EXPECT_EQ(plane.name, "sigma_plane");
     EXPECT_NEAR(plane.value, 2.5e-8, 3 * (plane.high - plane.low) / 3.29);  // three standard deviations
@@ -137,7 +137,7 @@ TEST(Polydispersity, TiesWithErrorsOfLocalisationUntilImagedTwice) {
     const Diagnosis sizes = diagnose_by_recipe(
         {repeated({seen_by_microscope(unequal, 0, 0, 0, 37), seen_by_microscope(unequal, 1e-10, 1e-10, 0, 38)})});
     EXPECT_EQ(sizes.verdict, Verdict::named);
-    EXPECT_EQ(sizes.credible_set, std::vector<std::string>{"polydispersity"});
+    EXPECT_EQ(names_of(sizes.credible_set), std::vector<std::string>{"polydispersity"});
 }
 
 TEST(Polydispersity, EqualSpheresShowNone) {

@@ -4,6 +4,7 @@
 
 #include <coagula/common/logarithmic_steps.hpp>
 
+#include "credible_set.hpp"
 #include "hidden_effects.hpp"
 #include "infer/remainder.hpp"
 #include "responses/linear_modulus.hpp"
@@ -68,7 +69,7 @@ std::complex<double> with_inertia(double frequency) {
 TEST(Remainder, IsNothingWhereTheCauseExplainsAll) {
     const Diagnosis found = diagnosed(sweeps_of(with_inertia, 100));
     ASSERT_EQ(found.verdict, Verdict::named);
-    EXPECT_EQ(found.credible_set.front(), "tool-inertia");
+    EXPECT_EQ(name_of(found.credible_set.front()), "tool-inertia");
     EXPECT_FALSE(found.remainder.detected);
     EXPECT_TRUE(found.remainder.observable.empty() && found.remainder.where.empty());
     EXPECT_FALSE(found.causes.front().leaves_remainder);
@@ -84,8 +85,8 @@ TEST(Remainder, IsPlacedBesideACause) {
     };
     const Diagnosis found = diagnosed(sweeps_of(bumped, 100));
     EXPECT_TRUE(found.verdict == Verdict::kind_only || found.verdict == Verdict::none_of_catalogue);
-    EXPECT_EQ(found.credible_set.front(), "tool-inertia");
-    EXPECT_EQ(found.credible_set.back(), "none of the catalogue");
+    EXPECT_EQ(name_of(found.credible_set.front()), "tool-inertia");
+    EXPECT_EQ(name_of(found.credible_set.back()), "none of the catalogue");
     EXPECT_TRUE(found.causes.front().leaves_remainder);
     EXPECT_TRUE(found.remainder.detected);
     EXPECT_EQ(found.remainder.observable, "loss_modulus");
@@ -173,8 +174,7 @@ TEST(Remainder, OfTheLevelAloneNamesNoCauseAlone) {
     EXPECT_TRUE(found.detected);
     EXPECT_TRUE(found.level_alone);
     EXPECT_NE(found.verdict, Verdict::named);
-    const auto& set = found.credible_set;
-    EXPECT_NE(std::find(set.begin(), set.end(), "none of the catalogue"), set.end());
+    EXPECT_TRUE(in_set(found, "none of the catalogue"));
 }
 
 /// A tool far heavier than any: the value stays at the end of the range, which is said.
@@ -184,7 +184,7 @@ TEST(Remainder, AValueAtTheEndOfItsRangeIsFlagged) {
     EXPECT_TRUE(found.detected);
     EXPECT_NE(found.verdict, Verdict::named);
     const auto inertia =
-        std::find_if(found.causes.begin(), found.causes.end(), [](const Cause& cause) { return cause.name == "tool-inertia"; });
+        std::find_if(found.causes.begin(), found.causes.end(), [](const Cause& cause) { return cause.name() == "tool-inertia"; });
     ASSERT_NE(inertia, found.causes.end());
     EXPECT_TRUE(inertia->parameters.back().at_end);
     EXPECT_NEAR(inertia->parameters.back().value, 1e-3, 1e-4);

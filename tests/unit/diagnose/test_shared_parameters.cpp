@@ -68,7 +68,7 @@ Diagnosis diagnosed(std::vector<Measurement> tables, const std::string& cause) {
 
 const EstimatedParameter& parameter(const Diagnosis& found, const std::string& cause) {
     for (const Cause& one : found.causes) {
-        if (one.name == cause) {
+        if (one.name() == cause) {
             return one.parameters[1];
         }
     }

@@ -321,7 +321,7 @@ TEST(SolventDrag, IsFoundInASweepOfFrequencies) {
     const Diagnosis found = diagnosis_of(sweep(frequencies, moduli, 0.02, 4));
     EXPECT_TRUE(found.detected);
     EXPECT_EQ(found.verdict, Verdict::tied) << missing_to_a_name(found);
-    EXPECT_EQ(found.credible_set, (std::vector<std::string>{"solvent-drag", "none of the catalogue"}))
+    EXPECT_EQ(names_of(found.credible_set), (std::vector<std::string>{"solvent-drag", "none of the catalogue"}))
         << "only an oil tells it from an error of the phase";
     EXPECT_GT(found.gain.rmse_ratio, 2);
     const auto cause = found.causes.front();

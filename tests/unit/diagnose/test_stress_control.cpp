@@ -97,7 +97,7 @@ TEST(StressControl, ASmoothMaterialDoesNotVaryAlongTheStrainThatFollows) {
     const auto inertia_in = [&] {
         const Diagnosis found = diagnose(experiment, simulator(), options);
         const auto cause =
-            std::find_if(found.causes.begin(), found.causes.end(), [](const Cause& one) { return one.name == "tool-inertia"; });
+            std::find_if(found.causes.begin(), found.causes.end(), [](const Cause& one) { return one.name() == "tool-inertia"; });
         return cause == found.causes.end() ? EstimatedParameter{} : cause->parameters.back();
     };
     const EstimatedParameter with_strain = inertia_in();

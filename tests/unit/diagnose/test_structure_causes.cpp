@@ -158,7 +158,7 @@ TEST(StructureCauses, AVolumeFractionInPoresIsNamed) {
     const Diagnosis found = diagnose_stated(
         {pore_table(structure_with_voids(500, 61, 0.5, 0.43)), pore_table(structure_with_voids(500, 62, 0.5, 0.43))});
     EXPECT_EQ(found.verdict, Verdict::named) << missing_to_a_name(found);
-    EXPECT_EQ(found.credible_set, std::vector<std::string>{"volume-fraction"});
+    EXPECT_EQ(names_of(found.credible_set), std::vector<std::string>{"volume-fraction"});
     expect_within(found.causes.front().parameters[0], 0.43 / 0.4);
     EXPECT_GT(found.gain.rmse_ratio, 2);
 }
@@ -167,7 +167,7 @@ TEST(StructureCauses, HeterogeneityInPoresIsNamed) {
     const Diagnosis found =
         diagnose_stated({pore_table(structure_with_voids(500, 63, 0.16)), pore_table(structure_with_voids(500, 64, 0.16))});
     EXPECT_EQ(found.verdict, Verdict::named) << missing_to_a_name(found);
-    EXPECT_EQ(found.credible_set, std::vector<std::string>{"heterogeneity"});
+    EXPECT_EQ(names_of(found.credible_set), std::vector<std::string>{"heterogeneity"});
     expect_within(found.causes.front().parameters[0], 0.16);
     EXPECT_GT(found.gain.rmse_ratio, 2);
 }
@@ -180,7 +180,7 @@ TEST(StructureCauses, ACoordinationInCoordinatesIsFound) {
     const Diagnosis found = diagnose_stated(tables);
     EXPECT_TRUE(found.detected);
     EXPECT_TRUE(in_set(found, "coordination"));
-    ASSERT_EQ(found.causes.front().name, "coordination");
+    ASSERT_EQ(found.causes.front().name(), "coordination");
     expect_within(found.causes.front().parameters[0], 5.05);
 }
 

@@ -181,7 +181,7 @@ TEST(Thixotropy, IsNamedWhereItComesBackAtRest) {
     const Diagnosis found = diagnose(experiment, simulator(), options);
     EXPECT_TRUE(found.detected);
     EXPECT_EQ(found.verdict, Verdict::named);
-    EXPECT_EQ(found.credible_set, std::vector<std::string>{"thixotropy"});
+    EXPECT_EQ(names_of(found.credible_set), std::vector<std::string>{"thixotropy"});
     const auto& parameters = found.causes.front().parameters;
     ASSERT_EQ(parameters.size(), 3U);
     EXPECT_NEAR(std::log(parameters[1].value / breakdown), 0, std::log(1.5));
@@ -192,7 +192,7 @@ TEST(Thixotropy, IsNamedWhereItComesBackAtRest) {
     const Diagnosis up = diagnose(experiment, simulator(), options);
     EXPECT_TRUE(up.detected);
     EXPECT_EQ(up.verdict, Verdict::tied);
-    EXPECT_TRUE(in_set(up, "thixotropy")) << up.credible_set.front();
+    EXPECT_TRUE(in_set(up, "thixotropy")) << name_of(up.credible_set.front());
     ASSERT_FALSE(up.proposals.empty());
 }
 

@@ -176,7 +176,7 @@ TEST(RawModuli, ShowTheInertiaOfTheTool) {
     options.bootstrap = 399;
     const Diagnosis found = diagnose(experiment, simulator(), options);
     EXPECT_EQ(found.verdict, Verdict::named);
-    ASSERT_EQ(found.credible_set, std::vector<std::string>{"tool-inertia"});
+    ASSERT_EQ(names_of(found.credible_set), std::vector<std::string>{"tool-inertia"});
     const EstimatedParameter& estimate = found.causes.front().parameters[1];
     EXPECT_LT(estimate.low, inertia);
     EXPECT_GT(estimate.high, inertia);

@@ -97,7 +97,7 @@ void expect_consistent(const Diagnosis& found) {
     if (found.detected && !all) {
         EXPECT_NE(found.verdict, Verdict::named);
         EXPECT_TRUE(in_set(found, "none of the catalogue"));
-        EXPECT_TRUE(found.causes.front().name == "none of the catalogue" || found.causes.front().posterior < 0.95);
+        EXPECT_TRUE(found.causes.front().name() == "none of the catalogue" || found.causes.front().posterior < 0.95);
     }
     EXPECT_EQ(found.detected, found.verdict != Verdict::no_discrepancy);
     double sum = 0;
@@ -116,7 +116,7 @@ TEST(Verdict, NamesACauseOfTheCatalogueWhereAllHolds) {
         return std::complex<double>(gel - 3e-4 * row.angular_frequency * row.angular_frequency * per_torque(), 0);
     }));
     expect_consistent(found);
-    EXPECT_EQ(found.credible_set, std::vector<std::string>{"tool-inertia"});
+    EXPECT_EQ(names_of(found.credible_set), std::vector<std::string>{"tool-inertia"});
     EXPECT_EQ(found.verdict, Verdict::named);
     EXPECT_EQ(kind_of(found), "tool along frequency");
     EXPECT_GT(found.follows.posterior, 0.95);
@@ -147,7 +147,7 @@ TEST(Verdict, DampingFarOutsideOfItsRangeHasNoOtherName) {
     }));
     expect_consistent(found);
     EXPECT_TRUE(found.detected);
-    EXPECT_NE(found.verdict, Verdict::named) << found.credible_set.front();
+    EXPECT_NE(found.verdict, Verdict::named) << name_of(found.credible_set.front());
     EXPECT_EQ(found.follows.kind.axis, Axis::frequency) << kind_of(found);
 }
 
@@ -158,7 +158,7 @@ TEST(Verdict, ASampleThatDriftsAloneIsNoSuddenLoss) {
     }));
     expect_consistent(found);
     EXPECT_TRUE(found.detected);
-    EXPECT_NE(found.verdict, Verdict::named) << found.credible_set.front();
+    EXPECT_NE(found.verdict, Verdict::named) << name_of(found.credible_set.front());
     EXPECT_TRUE(found.follows.kind.axis == Axis::sample || found.follows.kind.axis == Axis::time) << kind_of(found);
 }
 
@@ -168,7 +168,7 @@ TEST(Verdict, WhatNoCauseDoesIsSaidToFollowTheTime) {
         return std::complex<double>(gel * (1.5 - 0.5 * std::exp(-std::pow(row.time / 200, 3))), 0);
     }));
     expect_consistent(found);
-    EXPECT_NE(found.verdict, Verdict::named) << found.credible_set.front();
+    EXPECT_NE(found.verdict, Verdict::named) << name_of(found.credible_set.front());
     EXPECT_EQ(found.follows.kind.axis, Axis::time) << kind_of(found);
     EXPECT_GT(found.follows.change, 0.2);
     EXPECT_NEAR(found.follows.to, 480, 1);
@@ -185,7 +185,7 @@ TEST(Verdict, OneRowTenTimesTooLargeIsNoName) {
     }
     const Diagnosis found = verdict_on(experiment);
     expect_consistent(found);
-    EXPECT_NE(found.verdict, Verdict::named) << found.credible_set.front();
+    EXPECT_NE(found.verdict, Verdict::named) << name_of(found.credible_set.front());
 }
 
 /// With nothing hidden no kind is followed.
@@ -243,7 +243,7 @@ TEST(Verdict, CausesThatExplainNothingAreNotInTheSet) {
     wavering.material.kind = MaterialKind::newtonian;
     const Diagnosis found = verdict_on(wavering);
     expect_consistent(found);
-    EXPECT_EQ(found.credible_set, std::vector<std::string>{"none of the catalogue"});
+    EXPECT_EQ(names_of(found.credible_set), std::vector<std::string>{"none of the catalogue"});
     EXPECT_GT(found.causes.front().posterior, 0.95);
 }
 

@@ -229,7 +229,7 @@ TEST(VolumeFractionGradient, IsNamedWhereTheGapWidens) {
         const bool passes = found.extended_p_value > 0.05;
         EXPECT_EQ(found.verdict, passes ? Verdict::named : Verdict::none_of_catalogue);
         named += passes ? 1 : 0;
-        EXPECT_EQ(found.credible_set, std::vector<std::string>{"volume-fraction-gradient"});
+        EXPECT_EQ(names_of(found.credible_set), std::vector<std::string>{"volume-fraction-gradient"});
         EXPECT_GT(found.gain.rmse_ratio, 2);
         const EstimatedParameter& difference = found.causes.front().parameters[1];
         EXPECT_GT(difference.high, 0.04 / 1.3);  // the exponent of few structures has an error, too
@@ -291,7 +291,8 @@ TEST(Sedimentation, IsFoundWhereTheWiderGapFallsMore) {
     options.bootstrap = 199;
     const Diagnosis found = diagnose(settling_samples(0.03, 4), *known_fractions().simulator, options);
     ASSERT_TRUE(found.detected);
-    EXPECT_EQ(found.credible_set, (std::vector<std::string>{"sedimentation", "none of the catalogue"})) << missing_to_a_name(found);
+    EXPECT_EQ(names_of(found.credible_set), (std::vector<std::string>{"sedimentation", "none of the catalogue"}))
+        << missing_to_a_name(found);
     EXPECT_FALSE(diagnose(settling_samples(0, 4), *known_fractions().simulator, options).detected);
 }
 

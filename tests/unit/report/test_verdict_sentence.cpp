@@ -11,9 +11,22 @@
 namespace coagula::report {
 namespace {
 
+using diagnose::CauseSet;
 using Names = std::vector<std::string>;
 
-std::string tied(Names set, Names certain) {
+CauseSet unknown() {
+    return CauseSet::none_of_catalogue();
+}
+
+CauseSet causes(const Names& names) {
+    diagnose::Hypothesis mechanisms;
+    for (const std::string& name : names) {
+        mechanisms.push_back(diagnose::find_mechanism(name));
+    }
+    return mechanisms;
+}
+
+std::string tied(std::vector<CauseSet> set, CauseSet certain) {
     diagnose::Diagnosis found;
     found.detected = true;
     found.p_value = 0.001;
@@ -24,20 +37,20 @@ std::string tied(Names set, Names certain) {
 }
 
 TEST(VerdictSentence, CausesThatTie) {
-    EXPECT_EQ(tied({"wall-slip", "gap-error", "none of the catalogue"}, {}),
+    EXPECT_EQ(tied({causes({"wall-slip"}), causes({"gap-error"}), unknown()}, {}),
               "The base model fails (p ≤ 0.001); these data cannot tell whether the cause is wall-slip, gap-error or none of the "
               "catalogue.");
 }
 
 TEST(VerdictSentence, ACauseAloneOrWithAnother) {
     EXPECT_EQ(
-        tied({"ageing", "ageing + contact-relaxation"}, {"ageing"}),
+        tied({causes({"ageing"}), causes({"ageing", "contact-relaxation"})}, causes({"ageing"})),
         "The base model fails (p ≤ 0.001), and ageing is a cause. These data cannot tell whether contact-relaxation is another.");
 }
 
 TEST(VerdictSentence, ACauseWithOneOfTwoOthers) {
     EXPECT_EQ(
-        tied({"tool-inertia + solvent-drag", "phase-offset + tool-inertia"}, {"tool-inertia"}),
+        tied({causes({"tool-inertia", "solvent-drag"}), causes({"phase-offset", "tool-inertia"})}, causes({"tool-inertia"})),
         "The base model fails (p ≤ 0.001), and tool-inertia is one cause. There is another; these data cannot tell whether that is "
         "solvent-drag or phase-offset.");
 }
@@ -46,14 +59,13 @@ TEST(VerdictSentence, TheBoxHoldsWhatIsLeftOverAndWhatToMeasureNext) {
     diagnose::Diagnosis found;
     found.detected = true;
     found.p_value = 0.001;
-    found.base.name = "base";
     for (const char* name : {"wall-slip", "gap-error"}) {
         diagnose::Cause cause;
-        cause.name = name;
+        cause.set = causes({name});
         cause.parameters.emplace_back();
         found.causes.push_back(cause);
     }
-    found.credible_set = {"wall-slip", "gap-error"};
+    found.credible_set = {causes({"wall-slip"}), causes({"gap-error"})};
     found.follows = {.kind = {diagnose::Link::geometry, diagnose::Axis::gap},
                      .posterior = 0.99,
                      .link_is_told = true,
@@ -94,9 +106,8 @@ TEST(VerdictSentence, WhatAKindWithoutANameLacks) {
     diagnose::Diagnosis found;
     found.detected = true;
     found.p_value = 0.001;
-    found.base.name = "base";
     diagnose::Cause cause;
-    cause.name = "ageing";
+    cause.set = causes({"ageing"});
     cause.parameters.emplace_back();
     found.causes = {cause};
     found.verdict = diagnose::Verdict::kind_only;
@@ -123,7 +134,7 @@ TEST(VerdictSentence, ACauseOrOneThatNobodyKnows) {
     found.detected = true;
     found.p_value = 0.001;
     found.verdict = diagnose::Verdict::tied;
-    found.credible_set = {"contact-loss", "none of the catalogue"};
+    found.credible_set = {causes({"contact-loss"}), unknown()};
     found.conditions = {{"separated", 0, 1, false}};
     EXPECT_EQ(verdict_sentence(found),
               "The base model fails (p ≤ 0.001); contact-loss explains the data, but nothing that was measured tells it from "

@@ -50,9 +50,9 @@ struct EstimatedParameter {
     bool at_end = false;  ///< of its physical range, beyond which the data would have it
 };
 
-/// A cause, or several at once ("ageing + wall-slip"), or "none of the catalogue", "base".
+/// What is known of the base model, a cause, several at once, or none of the catalogue.
 struct Cause {
-    std::string name;
+    CauseSet set = {};
     std::string words = {};  ///< what it changes
     double posterior = 0;
     double log_evidence = 0;
@@ -60,6 +60,8 @@ struct Cause {
     std::vector<EstimatedParameter> parameters = {};  ///< the stiffness of the particles first, where a modulus shows it
     Model model = {};                                 ///< most probable
     Eigen::MatrixXd draws = {};                       ///< from the posterior: parameters x equally probable draws
+
+    std::string name() const { return name_of(set); }
 };
 
 /// One way to fail that the test looked at.
@@ -174,7 +176,7 @@ struct Gain {
     double elpd_low = unset;         ///< 90 % interval by block bootstrap; NaN with fewer than two blocks of rows
     double elpd_high = unset;
     std::vector<HeldOutPrediction> predictions = {};
-    std::vector<std::string> chosen = {};  ///< cause that the rest of each fold asks for: the same each time if the data are clear
+    std::vector<CauseSet> chosen = {};  ///< cause that the rest of each fold asks for: the same each time if the data are clear
 };
 
 /// A measurement that would tell the causes of a tie apart.
@@ -206,7 +208,7 @@ struct PredictedRow {
 
 /// Prediction of a cause other than the best, to compare with the data.
 struct OtherPrediction {
-    std::string cause;
+    CauseSet cause;
     std::vector<double> values;  ///< of each of Diagnosis::rows, without the effect of the sample
     std::vector<double> fitted;  ///< as PredictedRow::extended_fitted
 };
@@ -216,16 +218,16 @@ struct Diagnosis {
     double p_value = 1;
     Verdict verdict = Verdict::no_discrepancy;
     Cause base;
-    std::vector<Cause> causes;              ///< all that were compared, most probable first
-    std::vector<std::string> credible_set;  ///< smallest set with 95 % of the posterior; pairs with a member of the set left out
-    std::vector<std::string> certain;       ///< causes that all of the credible set have, alone or in a pair
-    Follows follows;                        ///< where something was detected
-    std::vector<FollowedKind> kinds;        ///< of departure, most probable first
-    std::vector<Condition> conditions;      ///< of the name of the best cause
-    std::vector<Misfit> misfits;            ///< strongest first
-    double extended_p_value = 1;            ///< of the test, applied to the best cause
-    Remainder remainder;                    ///< that the best cause leaves over
-    bool level_alone = false;               ///< a departure of the level of the moduli alone says as much as the best cause
+    std::vector<Cause> causes;           ///< all that were compared, most probable first
+    std::vector<CauseSet> credible_set;  ///< smallest set with 95 % of the posterior; pairs with a member of the set left out
+    CauseSet certain;                    ///< causes that all of the credible set have, alone or in a pair
+    Follows follows;                     ///< where something was detected
+    std::vector<FollowedKind> kinds;     ///< of departure, most probable first
+    std::vector<Condition> conditions;   ///< of the name of the best cause
+    std::vector<Misfit> misfits;         ///< strongest first
+    double extended_p_value = 1;         ///< of the test, applied to the best cause
+    Remainder remainder;                 ///< that the best cause leaves over
+    bool level_alone = false;            ///< a departure of the level of the moduli alone says as much as the best cause
     Gain gain;
     std::vector<Proposal> proposals;  ///< most informative first
     double sample_deviation = 0;      ///< of the factor of a sample, less 1, beforehand

@@ -6,6 +6,8 @@
 #include <coagula/diagnose/mechanism.hpp>
 #include <coagula/diagnose/settings.hpp>
 
+#include <algorithm>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -14,8 +16,28 @@ namespace coagula::diagnose {
 /// The base model with these mechanisms.
 using Hypothesis = std::vector<const Mechanism*>;
 
-/// "base", "ageing", "ageing + wall-slip".
-std::string name_of(const Hypothesis& hypothesis);
+/// What is compared: a set of causes of the catalogue, of which the base model has none, or none that the catalogue has.
+struct CauseSet {
+    std::vector<std::size_t> members = {};  ///< places in the catalogue
+    bool unknown = false;                   ///< no cause of the catalogue
+
+    CauseSet() = default;
+    CauseSet(const Hypothesis& hypothesis);  // NOLINT(google-explicit-constructor): the same set
+    static CauseSet none_of_catalogue();
+
+    bool operator==(const CauseSet&) const = default;
+    bool is_base() const { return members.empty() && !unknown; }
+    bool contains(std::size_t member) const { return std::find(members.begin(), members.end(), member) != members.end(); }
+    /// Whether all causes of the other one, some, and more are in this.
+    bool has_more_than(const CauseSet& other) const;
+    CauseSet without(const CauseSet& other) const;
+};
+
+/// The name of each member.
+std::vector<std::string> names_in(const CauseSet& set);
+/// "base", "ageing", "ageing + wall-slip", "none of the catalogue".
+std::string name_of(const CauseSet& set);
+std::vector<std::string> names_of(const std::vector<CauseSet>& sets);
 
 /// All parameters of the mechanisms, in their order.
 std::vector<MechanismParameter> parameters_of(const Hypothesis& hypothesis);
