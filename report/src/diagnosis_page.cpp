@@ -110,7 +110,7 @@ std::string below_zero(const Diagnosis& found, std::size_t table) {
 
 std::string data_and_models(const DiagnosisRecord& record, Charts& charts) {
     const Diagnosis& found = record.diagnosis;
-    const Cause* cause = extended_cause(found);
+    const Cause* cause = best_cause(found);
     std::string html = heading("Measured data against the models") + "<div id=\"models\"></div>\n";
     for (std::size_t k = 0; k < record.experiment.measurements.size(); ++k) {
         const diagnose::Measurement& table = record.experiment.measurements[k];
@@ -189,7 +189,7 @@ std::string parameters(const Diagnosis& found) {
         }
     };
     add(found.base);
-    const Cause* drawn = extended_cause(found);
+    const Cause* drawn = best_cause(found);
     for (const Cause& cause : found.causes) {
         const auto& set = found.credible_set;
         const bool inside = std::find(set.begin(), set.end(), cause.set) != set.end();

@@ -166,12 +166,6 @@ bool is_least_p(const Diagnosis& diagnosis) {
     return diagnosis.p_value * static_cast<double>(diagnosis.bootstrap.size() + 1) < 1.5;
 }
 
-const Cause* extended_cause(const Diagnosis& diagnosis) {
-    const auto best = std::find_if(diagnosis.causes.begin(), diagnosis.causes.end(),
-                                   [&](const Cause& cause) { return !cause.parameters.empty() && !cause.set.is_base(); });
-    return diagnosis.detected && best != diagnosis.causes.end() ? &*best : nullptr;
-}
-
 Json noise_json(const diagnose::NoiseModel& noise) {
     Json json = {{"kind", diagnose::name_of(noise.kind)},
                  {"observable", noise.observable},

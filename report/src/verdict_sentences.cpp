@@ -128,7 +128,7 @@ std::string tied_sentence(const Diagnosis& found) {
 }
 
 std::string kind_only_sentence(const Diagnosis& found) {
-    const Cause* best = extended_cause(found);
+    const Cause* best = best_cause(found);
     const std::string why = reasons(found);
     return "; no cause is certain. The most probable is " + (best == nullptr ? "none" : best->name()) +
            (why.empty() ? "." : ", but " + why + ".");
@@ -236,7 +236,7 @@ std::string verdict_sentence(const Diagnosis& found) {
     }
     const std::string fails = "The base model fails" + chance;
     if (found.verdict == Verdict::none_of_catalogue) {
-        const Cause* best = extended_cause(found);
+        const Cause* best = best_cause(found);
         if (best != &found.causes.front()) {
             return fails + ", and no cause of the catalogue explains the deviation.";
         }
@@ -261,7 +261,7 @@ std::vector<std::string> verdict_sentences(const Diagnosis& found) {
     if (found.detected && found.verdict != Verdict::named) {
         sentences.push_back(follows_sentence(found));
     }
-    if (const Cause* best = extended_cause(found); best != nullptr && found.remainder.detected) {
+    if (const Cause* best = best_cause(found); best != nullptr && found.remainder.detected) {
         sentences.push_back("The best cause, " + best->name() + ", leaves " +
                             (found.remainder.most ? "most of the misfit: " : "a deviation: ") + sentence_on(found.remainder) + ".");
     }

@@ -78,10 +78,10 @@ void predict_rows(const DataSet& data, const Inference& inference, const Model& 
 }
 
 /// Predictions of the causes after the best one, also improbable ones: one sees where they miss the data.
-void predict_others(const Inference& inference, const CauseSet& best, Diagnosis& diagnosis) {
+void predict_others(const Inference& inference, Diagnosis& diagnosis) {
     constexpr std::size_t most = 4;
     for (const Cause& cause : diagnosis.causes) {
-        const bool is_model = !cause.parameters.empty() && !cause.set.is_base() && cause.set != best;
+        const bool is_model = !cause.parameters.empty() && !cause.set.is_base() && cause.set != diagnosis.best;
         if (is_model && diagnosis.others.size() < most) {
             const Prediction prediction = inference.prediction(cause.model);
             const Eigen::VectorXd values = inference.fitted(prediction);
@@ -133,6 +133,12 @@ const char* name_of(Verdict verdict) {
     return names.at(static_cast<std::size_t>(verdict));
 }
 
+const Cause* best_cause(const Diagnosis& diagnosis) {
+    const auto best = std::find_if(diagnosis.causes.begin(), diagnosis.causes.end(),
+                                   [&](const Cause& cause) { return cause.set == diagnosis.best && !cause.set.is_base(); });
+    return best == diagnosis.causes.end() ? nullptr : &*best;
+}
+
 void check(const Experiment& experiment, const DiagnosisOptions& options) {
     possible_causes(experiment, options.causes);
     check_structure_series(experiment, data_set_of(experiment, options.errors).observations);
@@ -170,7 +176,7 @@ Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const Dia
     diagnosis.gain = measure_gain(data, folds, experiment, simulator, possible, options);
     judge(comparison, inference, possible, options, diagnosis);
     predict_rows(data, inference, base.model, winner.fit.model, folds, diagnosis);
-    predict_others(inference, winner.fit.hypothesis, diagnosis);
+    predict_others(inference, diagnosis);
     if (diagnosis.verdict == Verdict::tied || diagnosis.verdict == Verdict::kind_only) {
         diagnosis.proposals = proposals_for(diagnosis, comparison.all, inference, simulator, options.seed);
     }

@@ -268,6 +268,7 @@ void judge(const Comparison& comparison, const Inference& inference, const Hypot
            Diagnosis& diagnosis) {
     const Priors priors = priors_of(options, possible.size());
     const Compared& winner = comparison.all[comparison.winner];
+    diagnosis.best = winner.fit.hypothesis;
     diagnosis.extended_p_value = comparison.p_value;
     diagnosis.level_alone = is_level_alone(inference, winner.fit);
     diagnosis.remainder.p_value = comparison.p_value;

@@ -40,17 +40,15 @@ std::string outside_of_contact(const diagnose::CauseSet& set) {
     return text;
 }
 
-/// The first of the credible set; null where nothing departs.
-const diagnose::Cause* best_cause(const diagnose::Diagnosis& diagnosis) {
+/// The best cause; null where nothing departs, or none of the catalogue leads.
+const diagnose::Cause* cause_to_extend_by(const diagnose::Diagnosis& diagnosis) {
     const auto& set = diagnosis.credible_set;
-    const auto best = std::find_if(diagnosis.causes.begin(), diagnosis.causes.end(),
-                                   [&](const diagnose::Cause& cause) { return !set.empty() && cause.set == set.front(); });
-    return diagnosis.detected && best != diagnosis.causes.end() && !best->parameters.empty() ? &*best : nullptr;
+    return set.empty() || set.front().unknown ? nullptr : diagnose::best_cause(diagnosis);
 }
 
 /// The contact of the best cause as a TOML file; empty when there is none or nothing shows its stiffness.
 std::string model_text(const diagnose::Diagnosis& diagnosis, double radius) {
-    const diagnose::Cause* best = best_cause(diagnosis);
+    const diagnose::Cause* best = cause_to_extend_by(diagnosis);
     if (best == nullptr || std::isnan(radius) || diagnosis.base.parameters.empty()) {
         return {};
     }
@@ -158,7 +156,7 @@ Diagnosed diagnosed(const DiagnoseRun& run, const std::vector<std::filesystem::p
     diagnose::Diagnosis diagnosis =
         naming(run.experiment, [&] { return diagnose::diagnose(experiment, simulator, checked.options, progress); });
     std::string contact = model_text(diagnosis, radius);
-    const diagnose::Cause* best = best_cause(diagnosis);
+    const diagnose::Cause* best = cause_to_extend_by(diagnosis);
     std::vector<std::string> calls;
     if (best != nullptr) {
         calls = remaking_calls(experiment, diagnose::change_of(best->model.simulated()));

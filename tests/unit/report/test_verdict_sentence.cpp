@@ -66,6 +66,7 @@ TEST(VerdictSentence, TheBoxHoldsWhatIsLeftOverAndWhatToMeasureNext) {
         found.causes.push_back(cause);
     }
     found.credible_set = {causes({"wall-slip"}), causes({"gap-error"})};
+    found.best = causes({"wall-slip"});
     found.follows = {.kind = {diagnose::Link::geometry, diagnose::Axis::gap},
                      .posterior = 0.99,
                      .link_is_told = true,
@@ -110,6 +111,7 @@ TEST(VerdictSentence, WhatAKindWithoutANameLacks) {
     cause.set = causes({"ageing"});
     cause.parameters.emplace_back();
     found.causes = {cause};
+    found.best = cause.set;
     found.verdict = diagnose::Verdict::kind_only;
     found.follows = {.kind = {diagnose::Link::history, diagnose::Axis::time},
                      .posterior = 0.7,

@@ -220,6 +220,7 @@ struct Diagnosis {
     Cause base;
     std::vector<Cause> causes;           ///< all that were compared, most probable first
     std::vector<CauseSet> credible_set;  ///< smallest set with 95 % of the posterior; pairs with a member of the set left out
+    CauseSet best;                       ///< cause that explains most, alone or with a remainder, where something was detected
     CauseSet certain;                    ///< causes that all of the credible set have, alone or in a pair
     Follows follows;                     ///< where something was detected
     std::vector<FollowedKind> kinds;     ///< of departure, most probable first
@@ -239,6 +240,9 @@ struct Diagnosis {
     std::vector<SampleEffect> extended_effects;  ///< the same for the best cause
     std::vector<OtherPrediction> others;         ///< of the next most probable causes, at most four
 };
+
+/// The cause that explains most: predicted rows, conditions, p-value and remainder are its. Null where nothing was detected.
+const Cause* best_cause(const Diagnosis& diagnosis);
 
 /// Checks made before anything is simulated: throws InputError when there are fewer than five usable numbers, too little to say
 /// anything, or too many, when no cause can show, or when rows of a structure series have no structures.

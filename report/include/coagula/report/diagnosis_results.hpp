@@ -20,9 +20,6 @@ Json to_json(const diagnose::Diagnosis& diagnosis, const std::vector<diagnose::N
 
 Table table_of(const diagnose::Diagnosis& diagnosis);
 
-/// The cause that the extended model has; null when there is none (nothing detected).
-const diagnose::Cause* extended_cause(const diagnose::Diagnosis& diagnosis);
-
 /// Change of the log predictive density on held-out rows: "+12.3 (90 % interval 8.1 to 17)". There must be such rows.
 std::string change_of_density(const diagnose::Gain& gain, const std::function<std::string(double)>& print);
 
