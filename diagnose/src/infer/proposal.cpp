@@ -25,13 +25,7 @@ constexpr double certain = 0.95;
 constexpr double least_deviation = 1e-9;  ///< of a modulus [Pa], also where it is predicted to be 0
 
 /// What is known beforehand of the errors of a measurement: those of the data so far.
-struct ExpectedErrors {
-    double relative = 0;  ///< of a modulus
-    double phase = 0;     ///< of G'' over |G*| [rad]
-    double sample = 0;    ///< of the level of a fresh sample
-};
-
-ExpectedErrors errors_of(const DataSet& data) {
+StatedNoise noise_of(const DataSet& data) {
     const Eigen::ArrayXd share = data.noise.deviation.array() / complex_moduli(data.observations, data.values);
     std::vector<double> relative;
     std::vector<double> phase;
@@ -41,7 +35,7 @@ ExpectedErrors errors_of(const DataSet& data) {
             (has_error_of_phase(one) ? phase : relative).push_back(share[k]);
         }
     }
-    return {median(relative), median(phase), std::max(data.effect, 0.0)};
+    return {.relative = median(relative), .sample = std::max(data.effect, 0.0), .phase = median(phase)};
 }
 
 /// A cause as the data so far leave it.
@@ -66,8 +60,7 @@ Belief belief_in(const Fit& fit, const Inference& inference) {
 }
 
 /// Standard deviations of the rows of a measurement with these expectations.
-Eigen::ArrayXd deviations(const std::vector<Observation>& observations, const Eigen::VectorXd& moduli,
-                          const ExpectedErrors& errors) {
+Eigen::ArrayXd deviations(const std::vector<Observation>& observations, const Eigen::VectorXd& moduli, const StatedNoise& noise) {
     const Eigen::ArrayXd sizes = complex_moduli(observations, moduli);
     Eigen::ArrayXd deviation(moduli.size());
     for (Index k = 0; k < moduli.size(); ++k) {
@@ -81,7 +74,7 @@ Eigen::ArrayXd deviations(const std::vector<Observation>& observations, const Ei
             continue;
         }
         const double other = std::sqrt(std::max(0.0, sizes[k] * sizes[k] - moduli[k] * moduli[k]));  // G' of G'', G'' of G'
-        const double own = std::hypot(errors.relative * moduli[k], errors.phase * other);
+        const double own = std::hypot(noise.relative * moduli[k], noise.phase * other);
         deviation[k] = std::max({own, 1e-6 * sizes[k], least_deviation});
     }
     return deviation;
@@ -96,7 +89,7 @@ struct Expectation {
 
 /// Errors of the rows, of the level of each fresh sample, and of the model, which are the same as in the data so far.
 Expectation expected_by(const Belief& belief, const Forward& forward, const std::vector<Observation>& observations,
-                        const ExpectedErrors& errors) {
+                        const StatedNoise& noise) {
     Expectation expectation;
     const auto rows = static_cast<Index>(observations.size());
     expectation.predictions.resize(rows, draws_per_cause);
@@ -111,16 +104,15 @@ Expectation expected_by(const Belief& belief, const Forward& forward, const std:
     }
     const Eigen::VectorXd mean = expectation.predictions.rowwise().mean();
     Eigen::MatrixXd covariance = changes * belief.covariance * changes.transpose();
-    covariance.diagonal().array() += deviations(observations, mean, errors).square();
+    covariance.diagonal().array() += deviations(observations, mean, noise).square();
     for (Index one = 0; one < rows; ++one) {
         for (Index other = 0; other < rows; ++other) {
             const Observation& a = observations[static_cast<std::size_t>(one)];
             const Observation& b = observations[static_cast<std::size_t>(other)];
             if (a.measurement == b.measurement && is_modulus_or_viscosity(a) && is_modulus_or_viscosity(b)) {
-                const double torque = a.row == b.row && is_loss(a) != is_loss(b) ? errors.relative : 0.0;
-                const double phase = torque > 0 ? errors.phase : 0.0;
-                covariance(one, other) +=
-                    (errors.sample * errors.sample + torque * torque - phase * phase) * mean[one] * mean[other];
+                const double torque = a.row == b.row && is_loss(a) != is_loss(b) ? noise.relative : 0.0;
+                const double phase = torque > 0 ? noise.phase : 0.0;
+                covariance(one, other) += (noise.sample * noise.sample + torque * torque - phase * phase) * mean[one] * mean[other];
             }
         }
     }
@@ -154,12 +146,12 @@ double entropy(const std::vector<double>& probabilities) {
 }
 
 Proposal evaluate(const Candidate& candidate, Simulator& simulator, const std::vector<Belief>& beliefs,
-                  const std::vector<double>& weights, const ExpectedErrors& errors, std::uint64_t seed, std::uint64_t number) {
+                  const std::vector<double>& weights, const StatedNoise& noise, std::uint64_t seed, std::uint64_t number) {
     const std::vector<Observation>& observations = candidate.observations;
     const Forward forward(candidate.experiment, observations, simulator);
     std::vector<Expectation> causes;
     for (const Belief& belief : beliefs) {
-        causes.push_back(expected_by(belief, forward, observations, errors));
+        causes.push_back(expected_by(belief, forward, observations, noise));
     }
     Proposal proposal{candidate.measurement, candidate.lengths, candidate.rest};
     const double before = entropy(weights);
@@ -202,10 +194,10 @@ std::vector<Proposal> propose(const Inference& inference, Simulator& simulator, 
         beliefs.push_back(belief_in(fit, inference));
     }
     const DataSet& data = inference.errors().data();
-    const ExpectedErrors errors = errors_of(data);
+    const StatedNoise noise = noise_of(data);
     std::uint64_t number = 0;
     for (const Candidate& candidate : candidates_for(inference.forward().experiment(), data.observations)) {
-        proposals.push_back(evaluate(candidate, simulator, beliefs, normalised, errors, seed, number++));
+        proposals.push_back(evaluate(candidate, simulator, beliefs, normalised, noise, seed, number++));
     }
     std::stable_sort(proposals.begin(), proposals.end(),
                      [](const auto& a, const auto& b) { return a.information > b.information; });
