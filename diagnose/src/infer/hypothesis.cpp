@@ -232,6 +232,24 @@ std::pair<Eigen::VectorXd, Node> Inference::most_probable(const Hypothesis& hypo
     return higher.log_weight > node.log_weight ? std::pair(between, higher) : std::pair(at_node, node);
 }
 
+Problem Inference::problem(const Hypothesis& hypothesis) const {
+    const double lowest = log_level_ - 0.5 * log_stiffness_range;
+    const auto model = [hypothesis, lowest](const Eigen::VectorXd& place) {
+        return model_at(hypothesis, place.tail(place.size() - 1), std::exp(lowest + place[0] * log_stiffness_range));
+    };
+    std::vector<MechanismParameter> priors{
+        {"normal_stiffness", "N/m", std::exp(lowest), std::exp(lowest + log_stiffness_range), true}};
+    const std::vector<MechanismParameter> of_causes = parameters_of(hypothesis);
+    priors.insert(priors.end(), of_causes.begin(), of_causes.end());
+    return {.priors = std::move(priors),
+            .predict = [this, model](const Eigen::VectorXd& place) { return prediction(model(place)); },
+            .log_density =
+                [this, model](const Eigen::VectorXd& place) {
+                    const Model here = model(place);
+                    return density_at(here, std::log(here.settings.normal_stiffness)) + std::log(log_stiffness_range);
+                }};
+}
+
 Fit Inference::fit(const Hypothesis& hypothesis) const {
     const std::vector<MechanismParameter> parameters = parameters_of(hypothesis);
     const PosteriorGrid grid = posterior(hypothesis);

@@ -5,6 +5,7 @@
 #include "chain/forward.hpp"
 #include "noise/error_model.hpp"
 #include "posterior_grid.hpp"
+#include "problem.hpp"
 
 #include <coagula/diagnose/model.hpp>
 
@@ -64,6 +65,9 @@ public:
         : forward_(forward), errors_(errors), scales_(shows_scale()), log_level_(log_level()) {}
 
     Fit fit(const Hypothesis& hypothesis) const;
+
+    /// What `fit` answers by its grid, for any engine. It holds while this lives.
+    Problem problem(const Hypothesis& hypothesis) const;
 
     /// Derivatives of the whitened prediction by the logarithm of the stiffness, the parameters' places, the sample effects and
     /// the errors of the prediction at a fit. @param further as there.

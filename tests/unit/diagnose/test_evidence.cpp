@@ -132,6 +132,34 @@ TEST(Evidence, OfAPairIsThatOfTheCauseWhereItsPartnerDoesLittle) {
     }
 }
 
+/// Part of the draws of a parameter below a value.
+double part_below(const PosteriorDraws& draws, Index parameter, double value) {
+    return static_cast<double>((draws.row(parameter).array() < value).count()) / static_cast<double>(draws.cols());
+}
+
+/// Walkers in the prior of all parameters, of which the stiffness is one, come to what the grid says.
+TEST(Evidence, OfTheGridIsThatOfAnEnsemble) {
+    const Experiment experiment = sweep_with_losses();
+    const DataSet data = data_set_of(experiment, {});
+    const Forward forward(experiment, data.observations, simulator());
+    const ErrorModel errors(data);
+    const Inference inference(forward, errors);
+    const Hypothesis losses{find_mechanism("contact-loss")};
+    const Fit fit = inference.fit(losses);
+    const Problem problem = inference.problem(losses);
+    const PosteriorDraws draws = ensemble()(problem);
+    ASSERT_EQ(draws.rows(), 3);
+    // 500 sweeps of which one in some ten is independent: 600 draws, whose parts are known to 0.01 at the ends. Of an exponent that
+    // the data would have at the end of its prior, the interval of the grid reaches that end.
+    for (Index parameter = 0; parameter < 3; ++parameter) {
+        const auto number = static_cast<std::size_t>(parameter);
+        const Posterior& by_grid = parameter == 0 ? fit.stiffness : fit.parameters[number - 1];
+        const MechanismParameter& prior = problem.priors[number];
+        EXPECT_NEAR(part_below(draws, parameter, by_grid.low), 0.05, 0.04) << prior.name;
+        EXPECT_NEAR(part_below(draws, parameter, by_grid.high), by_grid.high < 0.99 * prior.high ? 0.95 : 1.0, 0.04) << prior.name;
+    }
+}
+
 /// By brute force, errors of rows known from few degrees of freedom, so that the density has long tails.
 TEST(Evidence, IsTheIntegralOverParameterAndStiffness) {
     constexpr int places = 81;
