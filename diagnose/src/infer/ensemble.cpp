@@ -72,7 +72,8 @@ private:
 Engine ensemble(const EnsembleOptions& options) {
     return [options](const Problem& problem) {
         const auto axes = static_cast<int>(problem.priors.size());
-        require(options.walkers % 2 == 0 && options.walkers >= 2 * axes, "an ensemble needs an even number of walkers, two per axis");
+        require(options.walkers % 2 == 0 && options.walkers >= 2 * axes,
+                "an ensemble needs an even number of walkers, two per axis");
         Walkers walkers(problem, options);
         for (int sweep = 0; sweep < options.settling; ++sweep) {
             walkers.sweep();

@@ -22,4 +22,9 @@ std::vector<std::vector<bool>> choose_folds(const Experiment& experiment, const 
 Gain measure_gain(const DataSet& all, const std::vector<std::vector<bool>>& folds, const Experiment& experiment,
                   Simulator& simulator, const Hypothesis& possible, const DiagnosisOptions& options);
 
+/// The same numbers with errors that were estimated anew from the replicates that are not held out; those that tables state stay.
+/// @param structure_deviation of the numbers, beside their errors.
+DataSet with_errors_of_the_rest(const DataSet& data, const std::vector<bool>& held_out, const Experiment& experiment,
+                                const Eigen::VectorXd& structure_deviation, const DiagnosisOptions& options);
+
 }  // namespace coagula::diagnose

@@ -23,9 +23,8 @@ struct Problem {
 
     /// Values of the parameters at a place.
     Eigen::VectorXd values_at(const Eigen::VectorXd& place) const {
-        return Eigen::VectorXd::NullaryExpr(place.size(), [&](Eigen::Index axis) {
-            return priors[static_cast<std::size_t>(axis)].at(place[axis]);
-        });
+        return Eigen::VectorXd::NullaryExpr(
+            place.size(), [&](Eigen::Index axis) { return priors[static_cast<std::size_t>(axis)].at(place[axis]); });
     }
 };
 
@@ -34,9 +33,9 @@ using PosteriorDraws = Eigen::MatrixXd;
 using Engine = std::function<PosteriorDraws(const Problem& problem)>;
 
 struct EnsembleOptions {
-    int walkers = 32;   ///< even, at least twice the parameters
+    int walkers = 32;    ///< even, at least twice the parameters
     int settling = 300;  ///< sweeps before the first draw
-    int sweeps = 500;   ///< of which each gives a draw per walker
+    int sweeps = 500;    ///< of which each gives a draw per walker
     std::uint64_t seed = 1;
 };
 

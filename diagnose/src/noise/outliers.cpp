@@ -59,20 +59,16 @@ std::vector<AlikeTables> groups_of(const std::vector<Measurement>& tables) {
         if (!of_torque || replicates.values.cols() < fewest_tables) {
             continue;
         }
-        AlikeTables group{{}, {replicates.axis.begin(), replicates.axis.end()}, {}};
+        AlikeTables group{replicates.tables, {replicates.axis.begin(), replicates.axis.end()}, {}};
         group.sizes.setConstant(replicates.axis.size(), replicates.values.cols(), unset);
         for (Eigen::Index column = 0; column < replicates.values.cols(); ++column) {
-            const auto found = std::find_if(tables.begin(), tables.end(), [&](const Measurement& table) {
-                return table.label == replicates.labels[static_cast<std::size_t>(column)] &&
-                       table.sample == replicates.samples[static_cast<std::size_t>(column)];
-            });
-            group.tables.push_back(static_cast<std::size_t>(found - tables.begin()));
-            const std::vector<double>& axis = axis_of(*found)->values;
+            const Measurement& table = tables[replicates.tables[static_cast<std::size_t>(column)]];
+            const std::vector<double>& axis = axis_of(table)->values;
             for (std::size_t row = 0; row < axis.size(); ++row) {
                 const auto same =
                     std::find_if(group.axis.begin(), group.axis.end(), [&](double one) { return alike(one, axis[row]); });
                 if (same != group.axis.end()) {
-                    group.sizes(same - group.axis.begin(), column) = log_size(*found, row);
+                    group.sizes(same - group.axis.begin(), column) = log_size(table, row);
                 }
             }
         }

@@ -28,13 +28,6 @@ struct Partition {
     std::vector<std::string> names;
 };
 
-const Measurement* table_of(const Replicates& replicates, std::size_t column, const std::vector<Measurement>& tables) {
-    const auto found = std::find_if(tables.begin(), tables.end(), [&](const Measurement& table) {
-        return table.label == replicates.labels[column] && table.sample == replicates.samples[column];
-    });
-    return found == tables.end() ? nullptr : &*found;
-}
-
 /// Whether there are groups, and a group of several.
 bool can_tell(const std::vector<std::string>& names) {
     const std::set<std::string> groups(names.begin(), names.end());
@@ -46,10 +39,9 @@ std::vector<Partition> partitions_of(const Replicates& replicates, const std::ve
     constexpr double day = 86400;
     Partition by_instrument{GroupedBy::instrument, {}};
     Partition by_day{GroupedBy::day, {}};
-    for (std::size_t column = 0; column < replicates.samples.size(); ++column) {
-        const Measurement* table = table_of(replicates, column, tables);
-        const double start = table == nullptr ? unset : table->start;
-        by_instrument.names.push_back(table == nullptr ? "" : table->instrument);
+    for (const std::size_t place : replicates.tables) {
+        const double start = tables[place].start;
+        by_instrument.names.push_back(tables[place].instrument);
         by_day.names.push_back(std::isfinite(start) ? std::to_string(static_cast<std::int64_t>(std::floor(start / day))) : "");
     }
     std::vector<Partition> all{by_instrument, by_day, {GroupedBy::sample, replicates.samples}};

@@ -154,7 +154,7 @@ bool has_phase(const Group& tables) {
 /// The values of a column. Conditions are the axis values of the first table.
 Replicates replicates_in(const Group& tables, const Column& observable) {
     const std::vector<double>& axis = axis_of(*tables.front())->values;
-    Replicates replicates{tables.front()->kind, observable.name, observable.unit, {}, {}, {}, {}, false, {}, {}, 0};
+    Replicates replicates{tables.front()->kind, observable.name, observable.unit, {}, {}, {}, {}};
     replicates.axis = Eigen::VectorXd::Map(axis.data(), static_cast<Eigen::Index>(axis.size()));
     const std::vector<double> weights = floor_weights(*tables.front());
     replicates.floor_of_stress = !weights.empty();
@@ -248,6 +248,11 @@ std::vector<Replicates> find_replicates(const std::vector<Measurement>& measurem
     std::vector<Replicates> all;
     for (const Group& tables : group(measurements)) {
         const Measurement& first = *tables.front();
+        const auto add = [&](Replicates replicates) {
+            std::transform(tables.begin(), tables.end(), std::back_inserter(replicates.tables),
+                           [&](const Measurement* table) { return static_cast<std::size_t>(table - measurements.data()); });
+            all.push_back(std::move(replicates));
+        };
         // A fluid stores nothing.
         const Column* storage =
             std::isnan(first.fluid_viscosity) && has_moduli(first.kind) ? find_column(first, "storage_modulus") : nullptr;
@@ -255,13 +260,13 @@ std::vector<Replicates> find_replicates(const std::vector<Measurement>& measurem
         if (storage != nullptr && loss != nullptr && has_phase(tables)) {
             auto [modulus, phase] = torque_and_phase(replicates_in(tables, *storage), replicates_in(tables, *loss));
             take_out_load(modulus, tables);
-            all.push_back(std::move(modulus));
-            all.push_back(std::move(phase));
+            add(std::move(modulus));
+            add(std::move(phase));
             continue;
         }
         for (const Column* one : {storage, loss}) {
             if (one != nullptr) {
-                all.push_back(replicates_in(tables, *one));
+                add(replicates_in(tables, *one));
                 take_out_load(all.back(), tables);
             }
         }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hidden_effects.hpp"
-#include "infer/fold_errors.hpp"
 #include "infer/gain.hpp"
 
 #include <coagula/common/random.hpp>

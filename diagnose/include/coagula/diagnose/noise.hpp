@@ -32,6 +32,7 @@ struct Replicates {
     Eigen::VectorXd floor_weights;         ///< w, one per condition
     bool floor_of_stress = false;          ///< w is 1/strain
     std::vector<std::string> labels = {};  ///< of the tables
+    std::vector<std::size_t> tables = {};  ///< their places among the measurements
     Eigen::VectorXd levels = {};           ///< of a phase: mean |G*|, one per condition
     int fitted = 0;                        ///< parameters that were fitted to the values and taken out of them
 };
