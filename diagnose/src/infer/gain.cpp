@@ -178,12 +178,6 @@ std::vector<bool> ends_of_tables(const Experiment& experiment, const std::vector
     return held;
 }
 
-Column& column_of(Experiment& experiment, const Observation& one) {
-    std::vector<Column>& columns = experiment.measurements[one.measurement].columns;
-    const std::string_view name = observable_of(one).key;
-    return *std::find_if(columns.begin(), columns.end(), [&](const Column& column) { return column.name == name; });
-}
-
 }  // namespace
 
 DataSet with_errors_of_the_rest(const DataSet& data, const std::vector<bool>& held_out, const Experiment& experiment,
@@ -194,12 +188,13 @@ DataSet with_errors_of_the_rest(const DataSet& data, const std::vector<bool>& he
         return data;
     }
     Experiment rest = experiment;
+    std::vector<Observation> lost;
     for (std::size_t k = 0; k < data.observations.size(); ++k) {
-        const Observation& one = data.observations[k];
-        if (held_out[k] && is_modulus_or_viscosity(one)) {
-            column_of(rest, one).values[one.row] = unset;
+        if (held_out[k] && is_modulus_or_viscosity(data.observations[k])) {
+            lost.push_back(data.observations[k]);
         }
     }
+    put_values(lost, Eigen::VectorXd::Constant(static_cast<Index>(lost.size()), unset), rest);
     const std::vector<NoiseModel> noise = noise_of_tables(rest.measurements, options.stated_noise);
     DataSet found = data_set_of(experiment, estimated_errors(experiment, noise, options.stated_noise, options.errors));
     found.noise.widen(structure_deviation);

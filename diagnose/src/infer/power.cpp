@@ -3,7 +3,6 @@
 #include <coagula/diagnose/waveform.hpp>
 
 #include "chain/forward.hpp"
-#include "data/table_cells.hpp"
 #include "noise/error_model.hpp"
 
 #include <algorithm>
@@ -82,7 +81,6 @@ public:
 
 private:
     Drawn with_values(const Eigen::VectorXd& values) const;
-    TableErrors errors_of(const Measurement& table) const;
 
     Experiment experiment_;
     std::vector<Observation> observations_;
@@ -90,42 +88,13 @@ private:
     const PowerOptions& options_;
 };
 
-/// Errors that are stated of torque and phase, of one modulus alone those of the torque, and those of third harmonics.
-TableErrors Planned::errors_of(const Measurement& table) const {
-    const StatedNoise& noise = options_.noise;
-    TableErrors errors{.polar = find_column(table, "storage_modulus") != nullptr && find_column(table, "loss_modulus") != nullptr};
-    for (const Column& column : table.columns) {
-        if (!is_planned(column)) {
-            continue;
-        }
-        ColumnErrors own{column.name};
-        for (std::size_t row = 0; row < table.rows(); ++row) {
-            const double size = errors.polar ? complex_modulus(table, row) : std::abs(column.values[row]);
-            const double strain = cell(table, "strain", row);
-            const double torque = std::hypot(std::isfinite(strain) ? noise.floor / strain : noise.floor, noise.relative * size);
-            own.deviations.push_back(table.kind == MeasurementKind::harmonics
-                                         ? std::hypot(unstated_harmonic_error, third_harmonic_error * size)
-                                     : errors.polar && column.name == "loss_modulus" ? noise.phase * size
-                                                                                     : torque);
-        }
-        errors.columns.push_back(std::move(own));
-    }
-    return errors;
-}
-
 /// The planned tables with these numbers.
 Drawn Planned::with_values(const Eigen::VectorXd& values) const {
     Drawn drawn{experiment_, options_.diagnosis.errors};
-    for (std::size_t k = 0; k < observations_.size(); ++k) {
-        const Observation& one = observations_[k];
-        std::vector<Column>& columns = drawn.experiment.measurements[one.measurement].columns;
-        const auto column =
-            std::find_if(columns.begin(), columns.end(), [&](const Column& each) { return each.name == observable_of(one).key; });
-        column->values[one.row] = values[static_cast<Index>(k)];
-    }
+    put_values(observations_, values, drawn.experiment);
     drawn.errors.tables.clear();
     for (const Measurement& table : drawn.experiment.measurements) {
-        drawn.errors.tables.push_back(errors_of(table));
+        drawn.errors.tables.push_back(planned_errors(table, options_.noise));
     }
     return drawn;
 }

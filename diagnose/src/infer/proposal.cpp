@@ -22,7 +22,7 @@ namespace {
 constexpr int draws_per_cause = 16;
 constexpr int data_per_draw = 4;
 constexpr double certain = 0.95;
-constexpr double least_deviation = 1e-9;  ///< of a modulus [Pa], also where it is predicted to be 0
+constexpr double least_error = 1e-6;  ///< of torque and phase, also where nothing tells one
 
 /// What is known beforehand of the errors of a measurement: those of the data so far.
 StatedNoise noise_of(const DataSet& data) {
@@ -35,7 +35,9 @@ StatedNoise noise_of(const DataSet& data) {
             (has_error_of_phase(one) ? phase : relative).push_back(share[k]);
         }
     }
-    return {.relative = median(relative), .sample = std::max(data.effect, 0.0), .phase = median(phase)};
+    return {.relative = std::max(median(relative), least_error),
+            .sample = std::max(data.effect, 0.0),
+            .phase = std::max(median(phase), least_error)};
 }
 
 /// A cause as the data so far leave it.
@@ -59,25 +61,37 @@ Belief belief_in(const Fit& fit, const Inference& inference) {
     return belief;
 }
 
-/// Standard deviations of the rows of a measurement with these expectations.
-Eigen::ArrayXd deviations(const std::vector<Observation>& observations, const Eigen::VectorXd& moduli, const StatedNoise& noise) {
-    const Eigen::ArrayXd sizes = complex_moduli(observations, moduli);
-    Eigen::ArrayXd deviation(moduli.size());
-    for (Index k = 0; k < moduli.size(); ++k) {
-        const Observation& one = observations[static_cast<std::size_t>(k)];
-        if (is<Harmonic>(one)) {
-            deviation[k] = std::hypot(one.standard_error, third_harmonic_error * moduli[k]);
-            continue;
-        }
-        if (const auto* images = as<ImageDifference>(one)) {
-            deviation[k] = error_of(images->quantity, moduli[k], images->centres);
-            continue;
-        }
-        const double other = std::sqrt(std::max(0.0, sizes[k] * sizes[k] - moduli[k] * moduli[k]));  // G' of G'', G'' of G'
-        const double own = std::hypot(noise.relative * moduli[k], noise.phase * other);
-        deviation[k] = std::max({own, 1e-6 * sizes[k], least_deviation});
+/// What would be measured where this is expected, every table on a fresh sample.
+DataSet planned_data(const Candidate& candidate, const Eigen::VectorXd& expected, const StatedNoise& noise) {
+    Experiment experiment = candidate.experiment;
+    put_values(candidate.observations, expected, experiment);
+    ErrorSpec errors{.sample = noise.sample};
+    for (const Measurement& table : experiment.measurements) {
+        errors.tables.push_back(planned_errors(table, noise));
     }
-    return deviation;
+    DataSet data = data_set_of(experiment, errors);
+    data.sample_names.clear();
+    for (const Measurement& table : experiment.measurements) {
+        data.sample_names.push_back(table.sample);
+    }
+    for (Index k = 0; k < data.size(); ++k) {
+        Index& sample = data.sample[static_cast<std::size_t>(k)];
+        sample = sample < 0 ? sample : static_cast<Index>(data.observations[static_cast<std::size_t>(k)].measurement);
+    }
+    return data;
+}
+
+/// Covariance of what would be measured, beside errors of the model.
+Eigen::MatrixXd covariance_of(const Candidate& candidate, const Eigen::VectorXd& expected, const StatedNoise& noise) {
+    if (!is<ImageDifference>(candidate.observations.front()) && expected.allFinite()) {
+        return ErrorModel(planned_data(candidate, expected, noise)).covariance(expected);
+    }
+    Eigen::VectorXd deviation(expected.size());
+    for (Index k = 0; k < expected.size(); ++k) {
+        const auto* images = as<ImageDifference>(candidate.observations[static_cast<std::size_t>(k)]);
+        deviation[k] = images == nullptr ? unset : error_of(images->quantity, expected[k], images->centres);
+    }
+    return deviation.cwiseAbs2().asDiagonal();
 }
 
 /// What a cause expects of a measurement: normal errors about one of some predictions.
@@ -88,10 +102,9 @@ struct Expectation {
 };
 
 /// Errors of the rows, of the level of each fresh sample, and of the model, which are the same as in the data so far.
-Expectation expected_by(const Belief& belief, const Forward& forward, const std::vector<Observation>& observations,
-                        const StatedNoise& noise) {
+Expectation expected_by(const Belief& belief, const Forward& forward, const Candidate& candidate, const StatedNoise& noise) {
     Expectation expectation;
-    const auto rows = static_cast<Index>(observations.size());
+    const auto rows = static_cast<Index>(candidate.observations.size());
     expectation.predictions.resize(rows, draws_per_cause);
     Eigen::MatrixXd changes =
         Eigen::MatrixXd::Zero(rows, belief.errors.rows());  // those of earlier images, which are last, change none
@@ -104,18 +117,7 @@ Expectation expected_by(const Belief& belief, const Forward& forward, const std:
     }
     const Eigen::VectorXd mean = expectation.predictions.rowwise().mean();
     Eigen::MatrixXd covariance = changes * belief.covariance * changes.transpose();
-    covariance.diagonal().array() += deviations(observations, mean, noise).square();
-    for (Index one = 0; one < rows; ++one) {
-        for (Index other = 0; other < rows; ++other) {
-            const Observation& a = observations[static_cast<std::size_t>(one)];
-            const Observation& b = observations[static_cast<std::size_t>(other)];
-            if (a.measurement == b.measurement && is_modulus_or_viscosity(a) && is_modulus_or_viscosity(b)) {
-                const double torque = a.row == b.row && is_loss(a) != is_loss(b) ? noise.relative : 0.0;
-                const double phase = torque > 0 ? noise.phase : 0.0;
-                covariance(one, other) += (noise.sample * noise.sample + torque * torque - phase * phase) * mean[one] * mean[other];
-            }
-        }
-    }
+    covariance += covariance_of(candidate, mean, noise);
     expectation.factor.compute(covariance);
     expectation.white = expectation.factor.matrixL().solve(expectation.predictions);
     return expectation;
@@ -151,7 +153,7 @@ Proposal evaluate(const Candidate& candidate, Simulator& simulator, const std::v
     const Forward forward(candidate.experiment, observations, simulator);
     std::vector<Expectation> causes;
     for (const Belief& belief : beliefs) {
-        causes.push_back(expected_by(belief, forward, observations, noise));
+        causes.push_back(expected_by(belief, forward, candidate, noise));
     }
     Proposal proposal{candidate.measurement, candidate.lengths, candidate.rest};
     const double before = entropy(weights);

@@ -94,6 +94,19 @@ Eigen::VectorXd ErrorModel::draw(std::uint64_t seed, std::uint64_t number) const
     return errors;
 }
 
+Eigen::MatrixXd ErrorModel::covariance(const Prediction& prediction) const {
+    Eigen::MatrixXd parts = Eigen::MatrixXd::Zero(size(), size() + data_.samples());
+    for (Index k = 0; k < size(); ++k) {
+        parts.col(k) = data_.noise.coloured(Eigen::VectorXd::Unit(size(), k));
+    }
+    for (Index k = 0; k < size(); ++k) {
+        if (const Index sample = data_.sample[static_cast<std::size_t>(k)]; sample >= 0) {
+            parts(k, size() + sample) = data_.effect * prediction.level_slope[k];
+        }
+    }
+    return parts * parts.transpose();
+}
+
 Eigen::VectorXd ErrorModel::drawn_about(const Prediction& prediction, std::uint64_t seed, std::uint64_t number) const {
     const Eigen::VectorXd drawn = draw(seed, number);
     Eigen::VectorXd values = prediction.without_errors() + data_.noise.coloured(drawn.head(size()));

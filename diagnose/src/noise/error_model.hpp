@@ -64,6 +64,8 @@ public:
     /// Whitened errors of the rows, then the effects of the samples over their deviation, as this model draws them: heavy tails and
     /// the uncertainty of estimated deviations and correlations included.
     Eigen::VectorXd draw(std::uint64_t seed, std::uint64_t number) const;
+    /// Covariance of data about a prediction without errors of its own, where deviations are as stated.
+    Eigen::MatrixXd covariance(const Prediction& prediction) const;
     /// Data that may be measured where this prediction is exact, with such errors and effects.
     Eigen::VectorXd drawn_about(const Prediction& prediction, std::uint64_t seed, std::uint64_t number) const;
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/diagnose/noise.hpp>
+#include <coagula/diagnose/waveform.hpp>
 
 #include "data/table_cells.hpp"
 
@@ -94,13 +95,15 @@ std::vector<double> errors_of_part(const Measurement& table, const Column& colum
     return errors;
 }
 
+bool is_response(const Column& column) {
+    return column.name == "viscosity" || column.name == "storage_modulus" || column.name == "loss_modulus";
+}
+
 /// The columns of moduli, or of the viscosity, whose errors the table does not state.
 std::vector<const Column*> open_columns(const Measurement& table) {
     std::vector<const Column*> open;
     for (const Column& column : table.columns) {
-        const bool flows = is_flow(table.kind);
-        const bool shown = flows ? column.name == "viscosity" : column.name == "storage_modulus" || column.name == "loss_modulus";
-        if (shown && column.standard_errors.empty()) {
+        if (is_response(column) && is_flow(table.kind) == (column.name == "viscosity") && column.standard_errors.empty()) {
             open.push_back(&column);
         }
     }
@@ -160,6 +163,28 @@ ErrorSpec estimated_errors(const Experiment& experiment, const std::vector<Noise
     }
     estimate_sample_effect(noise, stated.sample, known);
     return known;
+}
+
+TableErrors planned_errors(const Measurement& table, const StatedNoise& noise) {
+    const bool stores = std::isnan(table.fluid_viscosity) && find_column(table, "storage_modulus") != nullptr;
+    TableErrors errors{.polar = stores && find_column(table, "loss_modulus") != nullptr};
+    for (const Column& column : table.columns) {
+        const bool harmonic = column.name.starts_with("third_harmonic");
+        if (!harmonic && !is_response(column)) {
+            continue;
+        }
+        ColumnErrors own{column.name};
+        for (std::size_t row = 0; row < table.rows(); ++row) {
+            const double size = std::abs(errors.polar && !harmonic ? complex_modulus(table, row) : column.values[row]);
+            const double strain = cell(table, "strain", row);
+            const double torque = std::hypot(std::isfinite(strain) ? noise.floor / strain : noise.floor, noise.relative * size);
+            own.deviations.push_back(harmonic ? std::hypot(unstated_harmonic_error, third_harmonic_error * size)
+                                     : errors.polar && column.name == "loss_modulus" ? noise.phase * size
+                                                                                     : torque);
+        }
+        errors.columns.push_back(std::move(own));
+    }
+    return errors;
 }
 
 }  // namespace coagula::diagnose

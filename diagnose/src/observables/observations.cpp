@@ -164,6 +164,15 @@ std::vector<Observation> observations_of(const Experiment& experiment, const Err
     return all;
 }
 
+void put_values(const std::vector<Observation>& observations, const Eigen::VectorXd& values, Experiment& experiment) {
+    for (std::size_t k = 0; k < observations.size(); ++k) {
+        std::vector<Column>& columns = experiment.measurements[observations[k].measurement].columns;
+        const std::string_view key = observable_of(observations[k]).key;
+        const auto column = std::find_if(columns.begin(), columns.end(), [&](const Column& one) { return one.name == key; });
+        column->values[observations[k].row] = values[static_cast<Index>(k)];
+    }
+}
+
 Eigen::ArrayXd complex_moduli(const std::vector<Observation>& observations, const Eigen::VectorXd& moduli) {
     std::map<std::pair<std::size_t, std::size_t>, double> squares;
     for (std::size_t k = 0; k < observations.size(); ++k) {

@@ -116,6 +116,9 @@ double relative_to(const Observation& observation, double level);
 /// @param errors beside those that tables state.
 std::vector<Observation> observations_of(const Experiment& experiment, const ErrorSpec& errors = {});
 
+/// Writes these numbers into the cells of the tables.
+void put_values(const std::vector<Observation>& observations, const Eigen::VectorXd& values, Experiment& experiment);
+
 /// |G*| at each observation of these moduli [Pa]; 1 at a third harmonic and between images.
 Eigen::ArrayXd complex_moduli(const std::vector<Observation>& observations, const Eigen::VectorXd& moduli);
 

@@ -307,6 +307,15 @@ TEST(RowNoise, WhitensErrorsOfTorqueAndPhase) {
     EXPECT_NEAR(data.noise.log_determinant(), std::log(covariance.determinant()), 1e-9);
 }
 
+/// Its own errors, which are turned, and the effect of the sample on all moduli together.
+TEST(ErrorModel, SaysHowDataScatterAboutAPrediction) {
+    DataSet data = Turning::data();
+    data.effect = 0.2;
+    const Eigen::VectorXd level = Eigen::VectorXd::LinSpaced(2 * Turning::rows, 900, 1100);
+    const Eigen::MatrixXd exact = Turning::covariance() + 0.04 * level * level.transpose();
+    EXPECT_LT((ErrorModel(data).covariance(level) - exact).cwiseAbs().maxCoeff(), 1e-6);
+}
+
 /// Colouring undoes whitening.
 TEST(RowNoise, ColoursWhatItWhitens) {
     const Eigen::VectorXd white = Eigen::VectorXd::LinSpaced(40, -1, 2).array().sin();

@@ -133,4 +133,8 @@ double standard_deviation(const NoiseModel& noise, double level, double floor_we
 ErrorSpec estimated_errors(const Experiment& experiment, const std::vector<NoiseModel>& noise, const StatedNoise& stated = {},
                            ErrorSpec known = {});
 
+/// Errors that are to be expected where a table will show these numbers: stated ones of torque and phase, those of one modulus or
+/// viscosity alone as of the torque, and of a part of a third harmonic a quarter of it beside the unstated one.
+TableErrors planned_errors(const Measurement& table, const StatedNoise& noise);
+
 }  // namespace coagula::diagnose
