@@ -26,7 +26,7 @@ from cases import ROWS as SESSION_ROWS, SETTLING_LOOK_ALIKES
 from days import placed
 from material import Material
 from session import follow_up
-from table import BREAKING, in_set, print_table
+from table import BREAKING, in_set, print_rows, print_table
 
 
 ROWS = {**SESSION_ROWS, **shown_cases.ROWS, **open_set.ROWS}
@@ -74,7 +74,7 @@ def allowed_causes(row, program, truth):
     """Of the command line: all but the true one, where that is struck from the catalogue."""
     if row != "struck":
         return ()
-    listed = subprocess.run([program, "diagnose", "--catalogue", "--json"], capture_output=True, text=True, check=True)
+    listed = subprocess.run([program, "diagnose", "catalogue", "--json"], capture_output=True, text=True, check=True)
     return ("--causes", ",".join(cause["name"] for cause in json.loads(listed.stdout) if cause["name"] != truth))
 
 
@@ -178,6 +178,7 @@ def main():
             file.write(json.dumps(entry, default=float) + "\n")
             file.flush()
     print_table(results)
+    print_rows(results)
 
 
 if __name__ == "__main__":

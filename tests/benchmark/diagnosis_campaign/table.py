@@ -247,5 +247,32 @@ def print_table(path):
         print(entry["row"], entry["number"], entry["problem"][:300])
 
 
+def share_of(hits):
+    hits = list(hits)
+    return f"{sum(hits)}/{len(hits)}" if hits else ""
+
+
+def in_short(row, own):
+    """A line of the table by rows."""
+    found = [entry for entry in own if entry["found"]["detected"]]
+    times = [entry["wall"] for entry in own]
+    hidden = row not in NULLS
+    return [row, share_of(entry["found"]["detected"] for entry in own),
+            share_of(is_named(entry) for entry in found) if hidden else "",
+            share_of(in_set(entry["truth"], entry["found"]["credible_set"]) for entry in found) if hidden else "",
+            share_of(hit for entry in own for hit in parameter_covered(entry)),
+            share_of(confidently_wrong(entry) for entry in own), f"{median(times):.1f}", f"{max(times):.0f}"]
+
+
+def print_rows(path):
+    """One line for each row of the campaign, every run of it counted, however weak its effect is."""
+    entries = [entry for entry in map(json.loads, Path(path).open()) if "problem" not in entry]
+    head = ["row", "detected", "the cause alone", "the cause in the set", "90 % intervals hold", "confidently wrong", "median, s", "longest, s"]
+    print("\n| " + " | ".join(head) + " |\n|" + "---|" * len(head))
+    for row in dict.fromkeys(entry["row"] for entry in entries):
+        print("| " + " | ".join(in_short(row, [entry for entry in entries if entry["row"] == row])) + " |")
+
+
 if __name__ == "__main__":
     print_table(sys.argv[1])
+    print_rows(sys.argv[1])
