@@ -74,11 +74,17 @@ public:
         }
         vectors_.read_own(x, in_);
         const Row gained = dot_over_processes(in_, loads_, own_) + dot_over_processes(in_, residual_, own_);
-        error_.add(gained - gained_, norm_ > 0);
+        const Row gain = gained - gained_;
+        settled_ = settled_ || gain.abs() <= EnergyError::rounding * gained.abs();
+        error_.add(gain, norm_ > 0 && !settled_);
         gained_ = gained;
         return modulus_error() <= modulus_tolerance_;
     }
-    double modulus_error() const { return (norm_ > 0).select(error_.estimate(), 0.0).maxCoeff(); }
+    double modulus_error() const {
+        const Row left = (affine_ - gained_).max(EnergyError::rounding * affine_).max(1e-300);
+        const Row of_rounding = EnergyError::rounding * gained_.abs() / left;
+        return (norm_ > 0).select(settled_.select(of_rounding, error_.estimate()), 0.0).maxCoeff();
+    }
 
     /// |f - K x| / |f|, largest over the loads.
     double relative_residual(Vec x) {
@@ -104,6 +110,7 @@ private:
     Row norm_;
     Row affine_;
     Row gained_ = Row::Zero();
+    EnergyError::Columns settled_ = EnergyError::Columns::Constant(false);  ///< gained no more than rounding errors in an iteration
     double modulus_tolerance_ = 0;
     EnergyError error_;
     Loads in_;
