@@ -154,7 +154,7 @@ class Nesting(ProgramTest):
                      "a = " + "{a = " * 50000 + "1" + "}" * 50000 + "\n", "a = " + "{a.a.a = [" * 5000 + "\n"):
             self.write("deep.toml", "# [[[[ '''\ntitle = \"a.b.c [\"\n" + text)
             self.fail_with(2, "shear", PACKING, "--model", "deep.toml", "-o", "out.h5", says=["deep.toml, line 3", "nested deeper"])
-            self.fail_with(2, "diagnose", "deep.toml", "--check", says=["deep.toml, line 3", "nested deeper"])
+            self.fail_with(2, "diagnose", "check", "deep.toml", says=["deep.toml, line 3", "nested deeper"])
 
     def test_texts_and_numbers_are_no_levels(self):
         self.write("flat.toml", "normal_stiffness = '100.0 N/m' # " + "[" * 100 + "\nfriction = 0.5 # '''\n" +

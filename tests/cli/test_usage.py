@@ -102,6 +102,10 @@ class OldNames(ProgramTest):
         self.both(["diagnose", "--catalogue"], ["diagnose", "catalogue"],
                   "'diagnose --catalogue' is called 'diagnose catalogue' now; the old spelling works until version 2")
 
+    def test_a_call_that_fails_says_one_sentence(self):
+        self.fail_with(2, "diagnose", "absent.toml", "--check", says="absent.toml")
+        self.fail_with(2, "characterize", "absent.h5", "--position-noise", "1nm", "--noise-replicas", "2", says="absent.h5")
+
     def test_help_shows_the_new_names_only(self):
         text = self.succeed("shear", "--help")
         self.assertIn("--reverse", text)

@@ -121,12 +121,12 @@ void run(std::vector<std::string> words) {
         return;
     }
     const Arguments arguments(command.verb, line.call);
-    for (const std::string& note : line.notes) {
-        std::cerr << "coagula: " << note << std::endl;
-    }
     omp_set_num_threads(
         usable_threads(arguments.has("threads") ? static_cast<int>(arguments.count("threads")) : omp_get_max_threads()));
     command.run(arguments);
+    for (const std::string& note : line.notes) {  // of a call that failed, its one sentence is enough
+        std::cerr << "coagula: " << note << std::endl;
+    }
 }
 
 /// The word after --threads, or what follows it and an equals sign; empty where it is not asked for.

@@ -68,9 +68,9 @@ void run_diagnose(const Arguments& arguments) {
                                                        {"check", "check", &run_diagnose_check}};
     for (const auto& [name, verb, run] : spellings) {
         if (arguments.flag(name)) {
+            run(arguments);
             std::cerr << "coagula: 'diagnose --" << name << "' is called 'diagnose " << verb
                       << "' now; the old spelling works until version 2" << std::endl;
-            run(arguments);
             return;
         }
     }
