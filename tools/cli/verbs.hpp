@@ -11,7 +11,7 @@ namespace coagula::tools {
 /// A verb, and what it does: values of options -> stage -> print.
 struct Command {
     Verb verb;
-    void (*run)(const Arguments&);
+    void (*run)(const Arguments&) = nullptr;
 };
 
 /// All verbs, in the order in which help texts list them.
