@@ -94,6 +94,11 @@ class OldNames(ProgramTest):
         self.assertIn("friction", done.stderr)
         self.assertNotIn("no option", done.stderr)
 
+    def test_with_a_unit_of_its_own(self):
+        done = self.run_program("generate", "brownian", "--tangential-stiffness", "1", "mN/m", "--friction", "2km")
+        self.assertIn("friction", done.stderr)
+        self.assertNotIn("argument", done.stderr)
+
     def test_old_and_new_name_together(self):
         self.fail_with(2, "characterize", self.copy_of_packing(), "--position-noise", "1nm", "--noise-replicas", "2", "--realizations", "3",
                        says="--noise-replicas is the old name of --realizations: give one of them")

@@ -97,8 +97,9 @@ std::vector<std::string> with_units_joined(const std::vector<Option>& options, c
             stages::is_bare_number(word)) {
             return false;
         }
+        const std::string& before = joined[joined.size() - 2];
         const auto option = std::find_if(options.begin(), options.end(), [&](const Option& entry) {
-            return entry.kind == Option::Kind::quantity && joined[joined.size() - 2] == "--" + entry.name;
+            return entry.kind == Option::Kind::quantity && before.starts_with("--") && entry.goes_by(before.substr(2));
         });
         try {
             return option != options.end() && std::isfinite(stages::parse_with_unit(joined.back() + ' ' + word, option->unit)) &&
