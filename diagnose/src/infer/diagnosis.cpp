@@ -69,11 +69,12 @@ void predict_rows(const DataSet& data, const Inference& inference, const Model& 
     by_extended.values = inference.fitted(by_extended);
     for (std::size_t k = 0; k < data.observations.size(); ++k) {
         const Observation& observation = data.observations[k];
+        const auto* neighbours = as<Neighbours>(observation);
         const auto i = static_cast<Index>(k);
         diagnosis.rows.push_back({observation.measurement, observation.row, std::string(observable_of(observation).key),
                                   observation.value, deviation[i], by_base.values[i], by_extended.values[i], base_fitted[i],
                                   extended_fitted[i], in_any(folds, k), base_residual[i], extended_residual[i],
-                                  is<Neighbours>(observation) ? as<Neighbours>(observation)->distance : unset});
+                                  neighbours != nullptr ? neighbours->distance : unset});
     }
 }
 

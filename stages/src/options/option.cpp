@@ -3,6 +3,7 @@
 #include <coagula/stages/option.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace coagula::stages {
 
