@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/report/data_notes.hpp>
 
+#include "verdict_sentences.hpp"
+
 #include <coagula/common/checks.hpp>
 #include <coagula/diagnose/observable.hpp>
 
@@ -34,11 +36,11 @@ std::string tenths_of_percent(double share) {
 
 /// "'A', 'B' and 'C'".
 std::string list_of_names(const std::vector<std::string>& names) {
-    std::string list;
-    for (std::size_t k = 0; k < names.size(); ++k) {
-        list += (k == 0 ? "'" : k + 1 == names.size() ? " and '" : ", '") + names[k] + "'";
+    std::vector<std::string> quoted;
+    for (const std::string& name : names) {
+        quoted.push_back("'" + name + "'");
     }
-    return list;
+    return joined(quoted, " and ");
 }
 
 std::string subject_of(const ReplicateGroups& groups) {

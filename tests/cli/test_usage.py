@@ -129,6 +129,9 @@ orientation = "zx"
 down = [true, false]
 """)
         self.assertEqual(self.succeed_json("dataset", "plan", "sweep.toml")["structures"], 2)
+        with (self.folder / "sweep.toml").open("a") as sweep:
+            sweep.write("reverse = true\n")
+        self.fail_with(2, "dataset", "plan", "sweep.toml", says=["sweep.toml", "reverse", "down is the old name of reverse"])
 
 
 class WrongUsage(ProgramTest):

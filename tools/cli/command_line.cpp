@@ -163,18 +163,18 @@ CommandLine read_command_line(const Verb& verb, const std::vector<std::string>& 
     const po::variables_map map = read_words(verb, options, words, takes_many(verb, words));
     line.help_wanted = map.count("help") > 0;
     for (const Option& option : options) {
+        const bool now = map.count(option.name) > 0;
         const bool old = !option.former_name.empty() && map.count(option.former_name) > 0;
-        if (map.count(option.name) > 0) {
-            line.call.values[option.name] = given_of(option, map[option.name]);
-        }
-        if (old && map.count(option.name) > 0) {
+        if (now && old) {
             throw InputError("--" + option.former_name + " is the old name of --" + option.name + ": give one of them" +
                              hint(verb.name));
         }
         if (old) {
-            line.call.values[option.name] = given_of(option, map[option.former_name]);
             line.notes.push_back("--" + option.former_name + " is called --" + option.name +
                                  " now; the old name works until version 2");
+        }
+        if (now || old) {
+            line.call.values[option.name] = given_of(option, map[now ? option.name : option.former_name]);
         }
     }
     return line;

@@ -66,7 +66,7 @@ public:
 
     Fit fit(const Hypothesis& hypothesis) const;
 
-    /// What `fit` answers by its grid, for any engine. It holds while this lives.
+    /// Returns the problem that `fit` solves by its grid, for any engine. It refers to this object, which must outlive it.
     Problem problem(const Hypothesis& hypothesis) const;
 
     /// Derivatives of the whitened prediction by the logarithm of the stiffness, the parameters' places, the sample effects and

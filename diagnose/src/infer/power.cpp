@@ -57,7 +57,7 @@ Experiment prepared(Experiment experiment) {
     return experiment;
 }
 
-/// What would be measured, and what one would know of its errors.
+/// A draw gives tables as they would be measured, and the errors that one would know of them.
 struct Drawn {
     Experiment experiment;
     ErrorSpec errors;
@@ -76,7 +76,7 @@ public:
     const std::vector<Observation>& observations() const { return observations_; }
     Eigen::VectorXd expected(const Model& model) const { return forward_.predict(model); }
 
-    /// What would be measured where the truth is `expected`, with errors and effects of the samples.
+    /// Returns what would be measured where the truth is `expected`, with errors and effects of the samples.
     Drawn draw(const Eigen::VectorXd& expected, std::uint64_t number) const;
 
 private:
@@ -105,6 +105,21 @@ Drawn Planned::draw(const Eigen::VectorXd& expected, std::uint64_t number) const
     DataSet data = data_set_of(truth.experiment, truth.errors);
     data.noise.widen(forward_.structure_deviation(expected));  // of what is measured from what is simulated
     return with_values(ErrorModel(data).drawn_about(expected, options_.diagnosis.seed, first_step + number));
+}
+
+/// In how many data sets, drawn about these expectations, the base model is found to fail.
+Share found_in(int data_sets, const Planned& planned, const Eigen::VectorXd& expected, Simulator& simulator,
+               const DiagnosisOptions& options) {
+    DiagnosisOptions test_only = options;
+    test_only.level = 0;  // no p-value is as small, so that the diagnosis ends with the test
+    int found = 0;
+    for (int k = 0; k < data_sets; ++k) {
+        const Drawn drawn = planned.draw(expected, static_cast<std::uint64_t>(k));
+        test_only.errors = drawn.errors;
+        test_only.seed = options.seed + static_cast<std::uint64_t>(k);  // or all share the errors of one bootstrap
+        found += diagnose(drawn.experiment, simulator, test_only).p_value <= options.level ? 1 : 0;
+    }
+    return share_of(found, data_sets);
 }
 
 /// Searches the strengths of one cause.
@@ -136,18 +151,8 @@ private:
 };
 
 PowerPoint Search::measure(double place, int data_sets) const {
-    DiagnosisOptions test_only = options_.diagnosis;
-    test_only.level = 0;  // no p-value is as small, so that the diagnosis ends with the test
     const double value = strength().at(place);
-    const Eigen::VectorXd expected = planned_.expected(truth_at(value));
-    int found = 0;
-    for (int k = 0; k < data_sets; ++k) {
-        const Drawn drawn = planned_.draw(expected, static_cast<std::uint64_t>(k));
-        test_only.errors = drawn.errors;
-        test_only.seed = options_.diagnosis.seed + static_cast<std::uint64_t>(k);  // or all share the errors of one bootstrap
-        found += diagnose(drawn.experiment, simulator_, test_only).p_value <= options_.diagnosis.level ? 1 : 0;
-    }
-    return {value, share_of(found, data_sets)};
+    return {value, found_in(data_sets, planned_, planned_.expected(truth_at(value)), simulator_, options_.diagnosis)};
 }
 
 double part(const PowerPoint& point) {
@@ -300,17 +305,7 @@ Power find_power(const Experiment& experiment, Simulator& simulator, const Power
     power.moduli = static_cast<std::size_t>(std::count_if(observations.begin(), observations.end(), is_modulus_or_viscosity));
     power.third_harmonics = observations.size() - power.moduli;
 
-    DiagnosisOptions test_only = options.diagnosis;
-    test_only.level = 0;
-    const Eigen::VectorXd expected = planned.expected(base);
-    int found = 0;
-    for (int k = 0; k < options.data_sets; ++k) {
-        const Drawn drawn = planned.draw(expected, static_cast<std::uint64_t>(k));
-        test_only.errors = drawn.errors;
-        test_only.seed = options.diagnosis.seed + static_cast<std::uint64_t>(k);
-        found += diagnose(drawn.experiment, simulator, test_only).p_value <= options.diagnosis.level ? 1 : 0;
-    }
-    power.by_chance = share_of(found, options.data_sets);
+    power.by_chance = found_in(options.data_sets, planned, planned.expected(base), simulator, options.diagnosis);
 
     double done = 0;
     for (const Mechanism& mechanism : catalogue()) {

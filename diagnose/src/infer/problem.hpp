@@ -14,7 +14,7 @@
 
 namespace coagula::diagnose {
 
-/// What is to be inferred: parameters, of which every place 0 .. 1 is equally probable beforehand, and the data.
+/// A problem has parameters, of which every place 0 .. 1 is equally probable beforehand, and data that tell more of them.
 struct Problem {
     std::vector<MechanismParameter> priors;  ///< the stiffness first
     std::function<Prediction(const Eigen::VectorXd& place)> predict;

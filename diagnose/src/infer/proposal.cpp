@@ -61,7 +61,7 @@ Belief belief_in(const Fit& fit, const Inference& inference) {
     return belief;
 }
 
-/// What would be measured where this is expected, every table on a fresh sample.
+/// Returns the data that would be measured where this is expected. Every table is that of a fresh sample.
 DataSet planned_data(const Candidate& candidate, const Eigen::VectorXd& expected, const StatedNoise& noise) {
     Experiment experiment = candidate.experiment;
     put_values(candidate.observations, expected, experiment);

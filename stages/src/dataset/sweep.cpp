@@ -66,6 +66,10 @@ Section read_section(const toml::table& table, Verb verb, std::string where, con
                         ? "has no place in a set"
                         : "is no option of " + section.verb.name + meant_option(section.verb, name));
         }
+        if (std::ranges::count(section.axes, option->name, &Axis::option) > 0) {
+            fail_at(section.where, name,
+                    "and its other name stand for one option: " + option->former_name + " is the old name of " + option->name);
+        }
         section.axes.push_back(read_axis(node, *option, section.where, stepped));
         resolve_files(*option, folder, section.axes.back());
     }

@@ -28,10 +28,18 @@ void take_oldest() {
     unsetenv("OPENBLAS_CORETYPE");
 }
 
+bool has_newer_kernels() {
+#if defined(__x86_64__)
+    return openblas_get_corename != nullptr && gotoblas_dynamic_quit != nullptr && __builtin_cpu_supports("avx2");
+#else
+    return false;
+#endif
+}
+
 class BlasKernels : public ::testing::Test {
 protected:
     void SetUp() override {
-        if (openblas_get_corename == nullptr || gotoblas_dynamic_quit == nullptr || !__builtin_cpu_supports("avx2")) {
+        if (!has_newer_kernels()) {
             GTEST_SKIP() << "the BLAS has one set of kernels, or this processor can run no other";
         }
         take_oldest();

@@ -87,6 +87,15 @@ Experiment sweep_with_losses() {
     return experiment;
 }
 
+/// The sweep with losses, and the inference about it.
+struct InferredSweep {
+    const Experiment experiment = sweep_with_losses();
+    const DataSet data = data_set_of(experiment, {});
+    const Forward forward{experiment, data.observations, simulator()};
+    const ErrorModel errors{data};
+    const Inference inference{forward, errors};
+};
+
 const double log_prior_of_stiffness = std::log(8 * std::numbers::ln10);  // eight decades
 
 /// Logarithm of the integral of the density over the logarithm of the stiffness, by small steps about its highest point.
@@ -112,18 +121,15 @@ double log_integral_over_stiffness(const Forward& forward, const ErrorModel& err
 /// A partner of which the data tell only that it is not large: the mode lies anywhere, and the posterior is as wide as the prior.
 /// The losses alone are a narrow ridge across the axes.
 TEST(Evidence, OfAPairIsThatOfTheCauseWhereItsPartnerDoesLittle) {
-    const Experiment experiment = sweep_with_losses();
-    const DataSet data = data_set_of(experiment, {});
-    const Forward forward(experiment, data.observations, simulator());
-    const ErrorModel errors(data);
-    const Inference inference(forward, errors);
+    const InferredSweep sweep;
+    const Inference& inference = sweep.inference;
     const Hypothesis losses{find_mechanism("contact-loss")};
     constexpr int places = 40;
     std::vector<double> logarithms;
     for (int place = 0; place < places * places; ++place) {
         const int row = place / places;
         const Eigen::Vector2d at(place % places + 0.5, row + 0.5);
-        logarithms.push_back(log_integral_over_stiffness(forward, errors, model_at(losses, at / places, 1)));
+        logarithms.push_back(log_integral_over_stiffness(sweep.forward, sweep.errors, model_at(losses, at / places, 1)));
     }
     const double integral = log_mean(logarithms) - log_prior_of_stiffness;
     EXPECT_NEAR(inference.fit(losses).log_evidence, integral, 0.1);
@@ -139,11 +145,8 @@ double part_below(const PosteriorDraws& draws, Index parameter, double value) {
 
 /// Walkers in the prior of all parameters, of which the stiffness is one, come to what the grid says.
 TEST(Evidence, OfTheGridIsThatOfAnEnsemble) {
-    const Experiment experiment = sweep_with_losses();
-    const DataSet data = data_set_of(experiment, {});
-    const Forward forward(experiment, data.observations, simulator());
-    const ErrorModel errors(data);
-    const Inference inference(forward, errors);
+    const InferredSweep sweep;
+    const Inference& inference = sweep.inference;
     const Hypothesis losses{find_mechanism("contact-loss")};
     const Fit fit = inference.fit(losses);
     const Problem problem = inference.problem(losses);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the checks of the data found is written as sentences.
+// The sentences say what the checks of the data found.
 #include <coagula/report/data_notes.hpp>
 
 #include <gtest/gtest.h>

@@ -50,7 +50,7 @@ struct EstimatedParameter {
     bool at_end = false;  ///< of its physical range, beyond which the data would have it
 };
 
-/// What is known of the base model, a cause, several at once, or none of the catalogue.
+/// The comparison found this of the base model, of a cause, of several at once, or of none of the catalogue.
 struct Cause {
     CauseSet set = {};
     std::string words = {};  ///< what it changes

@@ -16,7 +16,7 @@ namespace coagula::diagnose {
 /// The base model with these mechanisms.
 using Hypothesis = std::vector<const Mechanism*>;
 
-/// What is compared: a set of causes of the catalogue, of which the base model has none, or none that the catalogue has.
+/// Such sets are compared: causes of the catalogue, of which the base model has none, or a cause that the catalogue does not have.
 struct CauseSet {
     std::vector<std::size_t> members = {};  ///< places in the catalogue
     bool unknown = false;                   ///< no cause of the catalogue

@@ -107,7 +107,7 @@ inline bool is_of_phase(const NoiseModel& noise) {
 /// Restricted maximum likelihood (Patterson, Thompson, Biometrika 58 (1971) 545): one free level per condition, the three variances
 /// by the likelihood of the contrasts between replicates; the levels and effects in the variances are those of the previous of four
 /// passes. Throws std::invalid_argument when sizes do not fit together.
-NoiseModel fit_noise(const Replicates& replicates, const StatedNoise& stated = {});
+NoiseModel fit_noise(const Replicates& replicates, const StatedNoise& given = {});
 
 /// The models of all tables of moduli. Tables without replicates take the rows' noise of those that have some: that of the same
 /// errors, of torque or phase, from the largest number of degrees of freedom.

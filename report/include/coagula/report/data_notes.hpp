@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a reader should know about the data of an experiment, in sentences.
+// These functions write, in sentences, what a reader should know about the data of an experiment.
 #pragma once
 
 #include <coagula/diagnose/noise.hpp>
@@ -10,7 +10,7 @@
 
 namespace coagula::report {
 
-/// Where the numbers of a noise model come from.
+/// Says where the numbers of a noise model come from.
 std::string source_of(const diagnose::NoiseModel& noise);
 
 /// The notes of the file, then what the checks found, one sentence each.
