@@ -56,6 +56,18 @@ std::vector<std::size_t> first_of_rows(const std::vector<Observation>& observati
     return all;
 }
 
+/// Returns for every observation of the network the first one at the same frequency, of the same structures.
+std::vector<std::size_t> first_of_frequencies(const std::vector<Observation>& observations) {
+    std::map<std::pair<double, std::size_t>, std::size_t> firsts;
+    std::vector<std::size_t> all;
+    for (std::size_t k = 0; k < observations.size(); ++k) {
+        const Observation& one = observations[k];
+        const double frequency = std::isfinite(one.angular_frequency) ? one.angular_frequency : -1.0;
+        all.push_back(shows_network(one) ? firsts.try_emplace({frequency, one.structures}, k).first->second : k);
+    }
+    return all;
+}
+
 /// Selects the mechanisms that change the material.
 std::vector<ActingMechanism> acting_on_material(const Model& model) {
     std::vector<ActingMechanism> some;
@@ -88,6 +100,7 @@ Forward::Forward(const Experiment& experiment, const std::vector<Observation>& o
     : experiment_(experiment),
       observations_(observations),
       first_of_row_(first_of_rows(observations)),
+      first_of_frequency_(first_of_frequencies(observations)),
       simulator_(simulator),
       runs_(run_times(experiment)),
       history_(experiment) {
@@ -109,15 +122,28 @@ Complex Forward::seen_by_instrument(const Model& model, std::size_t number, Comp
     return modulus;
 }
 
-/// G* / G of what acts in the contacts and between the particles while no bond breaks.
-Complex Forward::linear_response(const Settings& settings, const Conditions& here, bool exact) const {
-    Complex factor = 1;
-    for (const Response& response : network_responses()) {
-        if (response.acts(settings, here)) {
-            factor *= response.factor(simulator_, settings, here, exact);
+/// Factor of a response at every observation of the network; 1 where it does not act.
+Eigen::VectorXcd Forward::factors_of(const Response& response, const Settings& settings, bool exact) const {
+    Eigen::VectorXcd factors = Eigen::VectorXcd::Ones(static_cast<Index>(observations_.size()));
+    const std::vector<std::size_t>& alike = first_alike(response);
+    for (std::size_t k = 0; k < observations_.size(); ++k) {
+        const Conditions here = conditions_of(observations_[k]);
+        if (const std::size_t first = alike[k]; first < k) {
+            factors[static_cast<Index>(k)] = factors[static_cast<Index>(first)];
+        } else if (shows_network(observations_[k]) && response.acts(settings, here)) {
+            factors[static_cast<Index>(k)] = response.factor(simulator_, settings, here, exact);
         }
     }
-    return factor;
+    return factors;
+}
+
+/// G* / G of what acts in the contacts and between the particles while no bond breaks.
+Eigen::VectorXcd Forward::linear_responses(const Settings& settings, bool exact) const {
+    Eigen::VectorXcd factors = Eigen::VectorXcd::Ones(static_cast<Index>(observations_.size()));
+    for (const Response& response : network_responses()) {
+        factors.array() *= factors_of(response, settings, exact).array();
+    }
+    return factors;
 }
 
 /// G* of the material at every observation for a scale of 1, to which it is proportional; of a fluid as it is.
@@ -175,6 +201,7 @@ UncertainModuli Forward::network(const Model& model, bool exact) const {
     const Settings settings = of_material(model.simulated());
     const std::vector<BondStrain> bonds = bond_strains(settings);
     std::map<std::size_t, double> linear;  // moduli by group
+    const Eigen::VectorXcd responses = linear_responses(settings, exact);
     Eigen::VectorXcd moduli = Eigen::VectorXcd::Zero(static_cast<Index>(observations_.size()));
     for (std::size_t k = 0; k < observations_.size(); ++k) {
         const Observation& observation = observations_[k];
@@ -190,7 +217,7 @@ UncertainModuli Forward::network(const Model& model, bool exact) const {
                 found->second = exact ? exact_linear_modulus(simulator_, settings, here.group)
                                       : linear_modulus(simulator_, settings, here.group);
             }
-            modulus = found->second * linear_response(settings, here, exact);
+            modulus = found->second * responses[static_cast<Index>(k)];
         }
     }
     const Eigen::MatrixXcd yielding = moduli.asDiagonal() * amplitude_factors(settings, exact);
@@ -220,16 +247,22 @@ void Forward::add_scatter(const Response& response, const Settings& settings, Un
     moduli.changes = std::move(changes);
     moduli.logarithms.conservativeResizeLike(Eigen::MatrixXcd::Zero(rows, moduli.logarithms.cols() + any.logarithmic.size()));
     moduli.degrees = std::min(moduli.degrees, response.degrees(simulator_));
+    const Eigen::VectorXcd factors = any.logarithmic.size() > 0 ? factors_of(response, settings, false) : Eigen::VectorXcd();
+    std::map<std::size_t, Scatter> known;
     for (Index row = 0; row < rows; ++row) {
-        const Observation& observation = observations_[static_cast<std::size_t>(row)];
-        const Conditions here = conditions_of(observation);
-        if (!shows_network(observation) || !response.acts(settings, here)) {
+        const auto number = static_cast<std::size_t>(row);
+        const Conditions here = conditions_of(observations_[number]);
+        if (!shows_network(observations_[number]) || !response.acts(settings, here)) {
             continue;
         }
-        const Scatter scatter = response.scatter(simulator_, settings, here);
+        const auto [found, added] = known.try_emplace(first_alike(response)[number]);
+        if (added) {
+            found->second = response.scatter(simulator_, settings, here);
+        }
+        const Scatter& scatter = found->second;
         moduli.changes.row(row).tail(scatter.relative.size()) = moduli.mean[row] * scatter.relative;
         if (scatter.logarithmic.size() > 0) {
-            moduli.dragged[row] = 1.0 - 1.0 / response.factor(simulator_, settings, here, false);
+            moduli.dragged[row] = 1.0 - 1.0 / factors[row];
             moduli.excess[row] = scatter.expected;
             moduli.logarithms.row(row) = scatter.logarithmic;
         }

@@ -40,7 +40,7 @@ struct BondStrain {
 /// Throws InputError unless structures stand for every row of a structure series.
 void check_structure_series(const Experiment& experiment, const std::vector<Observation>& observations);
 
-/// Predicts observations. Not for several threads at once.
+/// Predicts observations. Each thread needs a copy of its own.
 class Forward {
 public:
     Forward(const Experiment& experiment, const std::vector<Observation>& observations, Simulator& simulator);
@@ -65,6 +65,7 @@ public:
     Index errors_of(const Model& model) const { return remembered_material(model, false).errors() + shared_.cols(); }
 
     const Experiment& experiment() const { return experiment_; }
+    Simulator& simulator() const { return simulator_; }
 
     /// Standard deviation of the error that so few structures leave in the prediction of the rows of structure series
     /// (structure_error) where these have about such values: in proportion to the base model, because a value that is
@@ -97,7 +98,12 @@ private:
     std::vector<double> largest_strains_before(const std::vector<double>& strains) const;
     std::vector<BondStrain> bond_strains(const Settings& settings) const;
     Eigen::MatrixXcd amplitude_factors(const Settings& given, bool exact) const;
-    std::complex<double> linear_response(const Settings& settings, const Conditions& here, bool exact) const;
+    Eigen::VectorXcd factors_of(const Response& response, const Settings& settings, bool exact) const;
+    Eigen::VectorXcd linear_responses(const Settings& settings, bool exact) const;
+    /// Of every observation the first one under conditions that are the same to a response.
+    const std::vector<std::size_t>& first_alike(const Response& response) const {
+        return response.follows_strain ? first_of_row_ : first_of_frequency_;
+    }
     UncertainModuli material(const Model& model, bool exact) const;
     UncertainModuli network(const Model& model, bool exact) const;
     void scale(UncertainModuli& moduli, const Model& model, bool exact) const;
@@ -112,7 +118,8 @@ private:
 
     const Experiment& experiment_;
     const std::vector<Observation>& observations_;
-    std::vector<std::size_t> first_of_row_;  ///< of every observation the first one that shows the same G*
+    std::vector<std::size_t> first_of_row_;        ///< of every observation the first one that shows the same G*
+    std::vector<std::size_t> first_of_frequency_;  ///< ... at the same frequency, of the same structures
     Simulator& simulator_;
     std::vector<RunTime> runs_;
     StrainHistory history_;

@@ -131,7 +131,8 @@ Response hertz_contacts() {
             .scatter = [](Simulator& simulator, const Settings& settings, const Conditions& at) -> Scatter {
                 return {.relative = contact_errors(simulator, settings, at.strain)};
             },
-            .degrees = contact_degrees};
+            .degrees = contact_degrees,
+            .follows_strain = true};
 }
 
 }  // namespace coagula::diagnose

@@ -35,6 +35,7 @@ struct Response {
     std::complex<double> (*factor)(Simulator& simulator, const Settings& settings, const Conditions& at, bool exact) = nullptr;
     Scatter (*scatter)(Simulator& simulator, const Settings& settings, const Conditions& at) = nullptr;  ///< null: known
     double (*degrees)(Simulator& simulator) = nullptr;  ///< of freedom from which the scale of the scatter is known
+    bool follows_strain = false;                        ///< else conditions that differ by their strain alone give the same
 };
 
 /// All of them, in the order in which they multiply the linear modulus. Breaking bonds are none, as they remember the strains
