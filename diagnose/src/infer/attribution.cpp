@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <mutex>
 #include <set>
 #include <utility>
 
@@ -32,23 +34,32 @@ std::size_t heaviest_cause(const std::vector<Compared>& all, const Weight& weigh
 /// model has: a cause may hide behind one that makes a part of what is left over. @param most of each kind.
 void find_remainders(const Inference& inference, std::size_t most, std::vector<Compared>& all) {
     const SmoothDepartures departures = smooth_departures(inference.errors().data().observations);
+    Simulator& simulator = inference.forward().simulator();
     all.front().remainder = find_remainder(inference, all.front().fit, departures);
     const Eigen::MatrixXd& directions = all.front().remainder->directions;
     std::vector<std::pair<double, std::size_t>> alone;
     std::vector<std::pair<double, std::size_t>> beside;
     for (std::size_t k = 1; k < all.size(); ++k) {
         alone.emplace_back(all[k].log_weight(), k);
-        beside.emplace_back(all[k].log_weight() + log_factor_along(inference, all[k].fit, directions), k);
+        beside.emplace_back(unset, k);
     }
+    simulator.together(beside.size(), [&](std::size_t k) {
+        const Compared& one = all[k + 1];
+        beside[k].first =
+            one.log_weight() + inference.apart([&](const Inference& own) { return log_factor_along(own, one.fit, directions); });
+    });
+    std::set<std::size_t> chosen;
     for (auto* order : {&alone, &beside}) {
         std::sort(order->rbegin(), order->rend());
         for (std::size_t place = 0; place < std::min(order->size(), most); ++place) {
-            Compared& one = all[(*order)[place].second];
-            if (!one.remainder) {
-                one.remainder = find_remainder(inference, one.fit, departures);
-            }
+            chosen.insert((*order)[place].second);
         }
     }
+    const std::vector<std::size_t> numbers(chosen.begin(), chosen.end());
+    simulator.together(numbers.size(), [&](std::size_t k) {
+        Compared& one = all[numbers[k]];
+        one.remainder = inference.apart([&](const Inference& own) { return find_remainder(own, one.fit, departures); });
+    });
 }
 
 /// Causes towards which the data depart most from the best one.
@@ -57,7 +68,8 @@ Hypothesis partners_of(const Detection& left, const Hypothesis& possible, std::s
     for (const MisfitStatistic& statistic : left.statistics) {
         const auto found = std::find_if(possible.begin(), possible.end(),
                                         [&](const Mechanism* mechanism) { return mechanism->name == statistic.cause; });
-        if (found != possible.end() && partners.size() < most) {
+        if (found != possible.end() && partners.size() < most &&
+            std::find(partners.begin(), partners.end(), *found) == partners.end()) {
             partners.push_back(*found);
         }
     }
@@ -83,7 +95,7 @@ Hypothesis look_alikes(const std::vector<Compared>& all, std::size_t best, const
 }
 
 /// Pairs to try where the best of all still fails its own test: the two best single causes, and the best with the best one of each
-/// other link of the chain; those that were not tried.
+/// other link of the chain.
 std::vector<Hypothesis> further_pairs(const std::vector<Compared>& all) {
     std::vector<std::pair<double, const Mechanism*>> singles;
     for (auto one = all.begin() + 1; one != all.end(); ++one) {
@@ -92,23 +104,70 @@ std::vector<Hypothesis> further_pairs(const std::vector<Compared>& all) {
         }
     }
     std::sort(singles.begin(), singles.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-    const auto is_tried = [&](const Hypothesis& pair) {
-        return std::any_of(all.begin(), all.end(), [&](const Compared& one) {
-            return std::is_permutation(one.fit.hypothesis.begin(), one.fit.hypothesis.end(), pair.begin(), pair.end());
-        });
-    };
     std::vector<Hypothesis> pairs;
     std::set<Link> links;
     for (std::size_t k = 1; k < singles.size(); ++k) {
         const Hypothesis pair{singles.front().second, singles[k].second};
         const Link link = pair.back()->kind.link;
         const bool is_first_of_link = link != pair.front()->kind.link && links.insert(link).second;
-        if ((k == 1 || is_first_of_link) && !is_tried(pair)) {
+        if (k == 1 || is_first_of_link) {
             pairs.push_back(pair);
         }
     }
     return pairs;
 }
+
+/// Every one of these causes, alone or beside another one.
+std::vector<Hypothesis> with_each(const Hypothesis& beside, const Hypothesis& causes) {
+    std::vector<Hypothesis> all(causes.size(), beside);
+    for (std::size_t k = 0; k < causes.size(); ++k) {
+        all[k].push_back(causes[k]);
+    }
+    return all;
+}
+
+/// Models that were fitted, the base model first, and the fits of more of them.
+class Fits {
+public:
+    Fits(const Fit& base, const Inference& inference, const Progress& progress)
+        : inference_(inference), progress_(progress), all_{{base}} {}
+
+    /// Fits those that were not yet, several at once.
+    void add(const std::vector<Hypothesis>& wanted, double log_prior, double done) {
+        std::vector<Hypothesis> missing;
+        std::copy_if(wanted.begin(), wanted.end(), std::back_inserter(missing), [&](const Hypothesis& one) { return !has(one); });
+        std::vector<Fit> found(missing.size());
+        std::mutex mutex;
+        inference_.forward().simulator().together(missing.size(), [&](std::size_t k) {
+            {
+                const std::lock_guard lock(mutex);
+                progress_.update("attributing", done, missing[k].size() > 1 ? "pairs" : missing[k].front()->name);
+            }
+            found[k] = inference_.fit(missing[k]);
+        });
+        for (Fit& one : found) {
+            all_.push_back({std::move(one), log_prior});
+        }
+    }
+
+    /// The most probable of all but the base model.
+    std::size_t best() const {
+        return heaviest_cause(all_, [](const Compared& one) { return one.log_weight(); });
+    }
+    const std::vector<Compared>& all() const { return all_; }
+    std::vector<Compared> taken() { return std::move(all_); }
+
+private:
+    bool has(const Hypothesis& wanted) const {
+        return std::any_of(all_.begin(), all_.end(), [&](const Compared& one) {
+            return std::is_permutation(one.fit.hypothesis.begin(), one.fit.hypothesis.end(), wanted.begin(), wanted.end());
+        });
+    }
+
+    const Inference& inference_;
+    const Progress& progress_;
+    std::vector<Compared> all_;
+};
 
 }  // namespace
 
@@ -144,46 +203,39 @@ double Comparison::log_weight_of_none(const Priors& priors) const {
 Comparison compare(const Fit& base, const Hypothesis& possible, const Inference& inference, const DiagnosisOptions& options,
                    Effort effort, const Progress& progress) {
     const Priors priors = priors_of(options, possible.size());
-    Comparison comparison{.all = {{base}}};
-    std::vector<Compared>& all = comparison.all;
-    for (const Mechanism* mechanism : possible) {
-        progress.update("attributing", 0.5, mechanism->name);
-        all.push_back({inference.fit({mechanism})});
-    }
-    const auto weight = [](const Compared& one) { return one.log_weight(); };
-    const std::size_t best = heaviest_cause(all, weight);
-    const Detection rest = detect(inference, all[best].fit, possible, options.seed, options.bootstrap, progress);
-    const auto add_pair = [&](const Mechanism* one, const Mechanism* other) {
-        progress.update("attributing", 0.8, "pairs");
-        all.push_back({inference.fit({one, other}), priors.pair});
+    Fits fits(base, inference, progress);
+    fits.add(with_each({}, possible), 0, 0.5);
+    const std::size_t best = fits.best();
+    const Mechanism* first = fits.all()[best].fit.hypothesis.front();
+    const auto test = [&](const Fit& fit) { return detect(inference, fit, possible, options.seed, options.bootstrap, progress); };
+    const Detection rest = test(fits.all()[best].fit);
+    const auto p_value_of = [&](std::size_t number, const std::vector<Compared>& all) {
+        return number == best ? rest.p_value : test(all[number].fit).p_value;
     };
+    const auto add_pairs = [&](const std::vector<Hypothesis>& pairs) { fits.add(pairs, priors.pair, 0.8); };
     if (rest.p_value < easily_passes) {
-        for (const Mechanism* partner : partners_of(rest, possible, effort == Effort::whole ? most_pairs : 1)) {
-            add_pair(all[best].fit.hypothesis.front(), partner);
-        }
-        const Hypothesis pair = all[heaviest_cause(all, weight)].fit.hypothesis;
+        const Hypothesis partners = partners_of(rest, possible, effort == Effort::whole ? most_pairs : 1);
+        add_pairs(with_each({first}, partners));
+        const Hypothesis pair = fits.all()[fits.best()].fit.hypothesis;
         if (effort == Effort::whole && pair.size() > 1) {
             // The best cause may stand for another one that looks like it, beside the partner that it has found.
-            for (const Mechanism* other : look_alikes(all, best, pair[1])) {
-                add_pair(other, pair[1]);
+            std::vector<Hypothesis> others = with_each({}, look_alikes(fits.all(), best, pair[1]));
+            for (Hypothesis& other : others) {
+                other.push_back(pair[1]);
             }
+            add_pairs(others);
         }
     }
-    const auto p_value_of = [&](std::size_t one) {
-        return one == best ? rest.p_value
-                           : detect(inference, all[one].fit, possible, options.seed, options.bootstrap, progress).p_value;
-    };
-    if (effort == Effort::whole && rest.p_value <= options.level && p_value_of(heaviest_cause(all, weight)) <= options.level) {
-        for (const Hypothesis& pair : further_pairs(all)) {
-            add_pair(pair.front(), pair.back());
-        }
+    if (effort == Effort::whole && rest.p_value <= options.level && p_value_of(fits.best(), fits.all()) <= options.level) {
+        add_pairs(further_pairs(fits.all()));
     }
+    Comparison comparison{.all = fits.taken()};
     if (effort == Effort::whole) {
-        find_remainders(inference, rest.p_value < easily_passes ? most_with_remainder : few_with_remainder, all);
+        find_remainders(inference, rest.p_value < easily_passes ? most_with_remainder : few_with_remainder, comparison.all);
         comparison.forms = free_forms(inference, base);
     }
-    comparison.winner = heaviest_cause(all, [&](const Compared& one) { return one.log_total(priors); });
-    comparison.p_value = p_value_of(comparison.winner);
+    comparison.winner = heaviest_cause(comparison.all, [&](const Compared& one) { return one.log_total(priors); });
+    comparison.p_value = p_value_of(comparison.winner, comparison.all);
     return comparison;
 }
 

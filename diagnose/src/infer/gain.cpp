@@ -217,6 +217,58 @@ std::vector<std::vector<bool>> choose_folds(const Experiment& experiment, const 
     return folds;
 }
 
+namespace {
+
+/// What one fold says.
+struct FoldGain {
+    std::vector<HeldOutPrediction> predictions;
+    double base_squares = 0;  ///< of the differences, relative
+    double extended_squares = 0;
+    double flexible_squares = 0;
+    std::vector<double> differences;  ///< of the log predictive density, of each block
+    CauseSet chosen;
+};
+
+FoldGain gain_of_fold(const DataSet& all, const std::vector<bool>& held_out, const Forward& everywhere,
+                      const Eigen::VectorXd& structure_deviation, const SmoothDepartures& departures, const Hypothesis& possible,
+                      const DiagnosisOptions& options) {
+    const Experiment& experiment = everywhere.experiment();
+    DataSet data = with_errors_of_the_rest(all, held_out, experiment, structure_deviation, options);
+    const std::vector<Index> known_rows = rows_where(held_out, false);
+    const std::vector<Index> held_rows = rows_where(held_out, true);
+    DataSet known = data.part(known_rows);
+    const Forward forward(experiment, known.observations, everywhere.simulator());
+    const RowCorrelations correlations = correlations_by_base(forward, known);
+    set_correlations(correlations, known);
+    set_correlations(correlations, data);
+    const DataSet held = data.part(held_rows);
+    const ErrorModel errors(known);
+    const Inference inference(forward, errors);
+    const Fit base = inference.fit({});
+    const Fit extended = chosen(inference, base, possible, options);
+    const auto predicted_by = [&](const Model& model) {
+        const Prediction all_rows = predicted(everywhere, inference, model);
+        return shown(all_rows, errors.effects(rows_of(all_rows, known_rows)).tail(all_rows.errors.linearised_at.size()));
+    };
+    const Eigen::VectorXd by_base = predicted_by(base.model);
+    const Eigen::VectorXd better = predicted_by(extended.model);
+    const Eigen::VectorXd flexible = flexible_prediction(data, by_base, known_rows, departures);
+    FoldGain gain{.predictions = {},
+                  .base_squares = squares(held, by_base(held_rows)),
+                  .extended_squares = squares(held, better(held_rows)),
+                  .flexible_squares = squares(held, flexible(held_rows)),
+                  .differences = log_densities(data, known_rows, held_rows, everywhere, inference, extended),
+                  .chosen = extended.hypothesis};
+    for (const Index row : held_rows) {
+        gain.predictions.push_back({static_cast<std::size_t>(row), by_base[row], better[row], flexible[row]});
+    }
+    const std::vector<double> of_base = log_densities(data, known_rows, held_rows, everywhere, inference, base);
+    std::transform(gain.differences.begin(), gain.differences.end(), of_base.begin(), gain.differences.begin(), std::minus<>());
+    return gain;
+}
+
+}  // namespace
+
 Gain measure_gain(const DataSet& all, const std::vector<std::vector<bool>>& folds, const Experiment& experiment,
                   Simulator& simulator, const Hypothesis& possible, const DiagnosisOptions& options) {
     Gain gain;
@@ -225,52 +277,30 @@ Gain measure_gain(const DataSet& all, const std::vector<std::vector<bool>>& fold
     }
     const Forward everywhere(experiment, all.observations, simulator);
     const SmoothDepartures departures = smooth_departures(all.observations);
-    std::vector<std::vector<double>> differences;
-    double base_squares = 0;
-    double extended_squares = 0;
-    double flexible_squares = 0;
     const Eigen::VectorXd structure_deviation = everywhere.structure_deviation(all.values);
-    for (const std::vector<bool>& held_out : folds) {
-        DataSet data = with_errors_of_the_rest(all, held_out, experiment, structure_deviation, options);
-        const std::vector<Index> known_rows = rows_where(held_out, false);
-        const std::vector<Index> held_rows = rows_where(held_out, true);
-        DataSet known = data.part(known_rows);
-        const Forward forward(experiment, known.observations, simulator);
-        const RowCorrelations correlations = correlations_by_base(forward, known);
-        set_correlations(correlations, known);
-        set_correlations(correlations, data);
-        const DataSet held = data.part(held_rows);
-        const ErrorModel errors(known);
-        const Inference inference(forward, errors);
-        const Fit base = inference.fit({});
-        const Fit extended = chosen(inference, base, possible, options);
-        const auto predicted_by = [&](const Model& model) {
-            const Prediction all_rows = predicted(everywhere, inference, model);
-            return shown(all_rows, errors.effects(rows_of(all_rows, known_rows)).tail(all_rows.errors.linearised_at.size()));
-        };
-        const Eigen::VectorXd by_base = predicted_by(base.model);
-        const Eigen::VectorXd better = predicted_by(extended.model);
-        const Eigen::VectorXd flexible = flexible_prediction(data, by_base, known_rows, departures);
-        base_squares += squares(held, by_base(held_rows));
-        extended_squares += squares(held, better(held_rows));
-        flexible_squares += squares(held, flexible(held_rows));
-        for (const Index row : held_rows) {
-            gain.predictions.push_back({static_cast<std::size_t>(row), by_base[row], better[row], flexible[row]});
+    std::vector<FoldGain> gains(folds.size());
+    simulator.together(folds.size(), [&](std::size_t k) {
+        const Forward own(everywhere);
+        gains[k] = gain_of_fold(all, folds[k], own, structure_deviation, departures, possible, options);
+    });
+    FoldGain sum;
+    std::vector<std::vector<double>> differences;
+    for (FoldGain& one : gains) {
+        gain.predictions.insert(gain.predictions.end(), one.predictions.begin(), one.predictions.end());
+        gain.chosen.push_back(std::move(one.chosen));
+        sum.base_squares += one.base_squares;
+        sum.extended_squares += one.extended_squares;
+        sum.flexible_squares += one.flexible_squares;
+        for (const double difference : one.differences) {
+            gain.elpd_difference = (std::isnan(gain.elpd_difference) ? 0.0 : gain.elpd_difference) + difference;
         }
-        const std::vector<double> of_base = log_densities(data, known_rows, held_rows, everywhere, inference, base);
-        std::vector<double> of_extended = log_densities(data, known_rows, held_rows, everywhere, inference, extended);
-        for (std::size_t block = 0; block < of_base.size(); ++block) {
-            of_extended[block] -= of_base[block];
-            gain.elpd_difference = (std::isnan(gain.elpd_difference) ? 0.0 : gain.elpd_difference) + of_extended[block];
-        }
-        differences.push_back(std::move(of_extended));
-        gain.held_out += held_rows.size();
-        gain.chosen.emplace_back(extended.hypothesis);
+        differences.push_back(std::move(one.differences));
     }
+    gain.held_out = gain.predictions.size();
     const auto count = static_cast<double>(gain.held_out);
-    gain.rmse_base = std::sqrt(base_squares / count);
-    gain.rmse_extended = std::sqrt(extended_squares / count);
-    gain.rmse_flexible = std::sqrt(flexible_squares / count);
+    gain.rmse_base = std::sqrt(sum.base_squares / count);
+    gain.rmse_extended = std::sqrt(sum.extended_squares / count);
+    gain.rmse_flexible = std::sqrt(sum.flexible_squares / count);
     gain.rmse_ratio = gain.rmse_extended > 0 ? gain.rmse_base / gain.rmse_extended : 1.0;
     bootstrap_interval(differences, options.seed, gain);
     return gain;

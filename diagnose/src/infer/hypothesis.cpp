@@ -251,6 +251,10 @@ Problem Inference::problem(const Hypothesis& hypothesis) const {
 }
 
 Fit Inference::fit(const Hypothesis& hypothesis) const {
+    return apart([&](const Inference& own) { return own.fit_here(hypothesis); });
+}
+
+Fit Inference::fit_here(const Hypothesis& hypothesis) const {
     const std::vector<MechanismParameter> parameters = parameters_of(hypothesis);
     const PosteriorGrid grid = posterior(hypothesis);
     const auto [place, node] = most_probable(hypothesis, grid);

@@ -66,6 +66,13 @@ public:
 
     Fit fit(const Hypothesis& hypothesis) const;
 
+    /// Returns what `work` makes of a copy of this that no other thread uses and that remembers nothing for later.
+    template <class Work>
+    auto apart(const Work& work) const {
+        const Forward forward(forward_);
+        return work(Inference(*this, forward));
+    }
+
     /// Returns the problem that `fit` solves by its grid, for any engine. It refers to this object, which must outlive it.
     Problem problem(const Hypothesis& hypothesis) const;
 
@@ -105,6 +112,13 @@ private:
     /// Moduli show a stiffness that nothing else tells, with what so few structures leave in their level; in a structure series
     /// each row has that error itself.
     bool level_is_open() const;
+    Inference(const Inference& other, const Forward& forward)
+        : forward_(forward),
+          errors_(other.errors_),
+          scales_(other.scales_),
+          last_errors_(other.last_errors_),
+          log_level_(other.log_level_) {}
+    Fit fit_here(const Hypothesis& hypothesis) const;
     class ProjectedResiduals;
     static Eigen::MatrixXd draws_from(const PosteriorGrid& grid, const std::vector<MechanismParameter>& parameters);
     PosteriorGrid posterior(const Hypothesis& hypothesis) const;

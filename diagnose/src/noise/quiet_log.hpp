@@ -4,18 +4,33 @@
 
 #include <glog/logging.h>
 
+#include <mutex>
+#include <utility>
+
 namespace coagula::diagnose {
 
-/// No messages of Ceres but fatal ones while it lives.
+/// No messages of Ceres but fatal ones while one of these lives, in any thread.
 class QuietLog {
 public:
-    QuietLog() { FLAGS_minloglevel = google::GLOG_FATAL; }
-    ~QuietLog() { FLAGS_minloglevel = before_; }
+    QuietLog() {
+        const std::lock_guard lock(mutex);
+        if (alive++ == 0) {
+            before = std::exchange(FLAGS_minloglevel, google::GLOG_FATAL);
+        }
+    }
+    ~QuietLog() {
+        const std::lock_guard lock(mutex);
+        if (--alive == 0) {
+            FLAGS_minloglevel = before;
+        }
+    }
     QuietLog(const QuietLog&) = delete;
     QuietLog& operator=(const QuietLog&) = delete;
 
 private:
-    int before_ = FLAGS_minloglevel;
+    static inline std::mutex mutex;
+    static inline int alive = 0;
+    static inline int before = 0;
 };
 
 }  // namespace coagula::diagnose

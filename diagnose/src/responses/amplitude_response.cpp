@@ -121,6 +121,7 @@ std::vector<std::vector<Yielded>> structure_responses(Simulator& simulator, cons
         }
     }
     if (!missing.empty()) {
+        simulator.require_simulations();
         simulator.progress().update("simulating", 0.0, "amplitude sweep with breaking bonds");
     }
     std::mutex mutex;

@@ -2,6 +2,7 @@
 #include <coagula/diagnose/simulator.hpp>
 
 #include <coagula/common/checks.hpp>
+#include <coagula/common/parallel.hpp>
 
 #include <sstream>
 
@@ -53,6 +54,7 @@ Simulator& Simulator::remade(const StructureChange& change) {
     if (change == StructureChange{}) {
         return *this;
     }
+    const std::lock_guard lock(threads_->mutex);
     std::unique_ptr<Simulator>& other = remade_[change];
     if (other) {
         return *other;
@@ -71,7 +73,53 @@ Simulator& Simulator::remade(const StructureChange& change) {
     // NOLINTNEXTLINE(cppcoreguidelines-owning-memory): std::make_unique cannot call a private constructor
     other.reset(new Simulator(Structures(std::move(particles), make), std::move(names), cache_, progress_, groups_, radius_));
     other->stages_.measure_pores = stages_.measure_pores;
+    other->threads_ = threads_;
     return *other;
+}
+
+const Packing& Simulator::structure(std::size_t number) const {
+    if (!structures_.is_made(number)) {
+        require_simulations();
+    }
+    return structures_[number];
+}
+
+void Simulator::require_simulations() const {
+    if (!threads_->simulate) {
+        throw NotSimulatedYet{};
+    }
+}
+
+void Simulator::together(std::size_t count, const std::function<void(std::size_t)>& work) {
+    std::vector<char> left(count, 1);  // no bits: threads write beside each other
+    if (threads_->simulate && count > 1) {
+        const std::unique_ptr<bool, void (*)(bool*)> until_end(&threads_->simulate, [](bool* simulate) { *simulate = true; });
+        threads_->simulate = false;
+        run_together(count, [&](std::size_t k) {
+            try {
+                work(k);
+                left[k] = 0;
+            } catch (const NotSimulatedYet&) {
+            }
+        });
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+        if (left[k] != 0) {
+            work(k);
+        }
+    }
+}
+
+const std::any* Simulator::in_memory(const ResultKey& key) const {
+    const std::lock_guard lock(threads_->mutex);
+    const auto found = memory_.find(key);
+    return found == memory_.end() ? nullptr : &found->second;
+}
+
+/// Another thread may have been faster: its value is the same and stays, because it may be in use.
+const std::any& Simulator::into_memory(const ResultKey& key, std::any value) {
+    const std::lock_guard lock(threads_->mutex);
+    return memory_.emplace(key, std::move(value)).first->second;
 }
 
 PoreCurve Simulator::measured_pores(const Packing& packing) const {
@@ -102,7 +150,11 @@ const std::vector<double>& Simulator::keep(const ResultKey& key, std::vector<dou
 
 const std::vector<double>& Simulator::simulated(const ResultKey& key, std::size_t count, const Run& run) {
     const std::vector<double>* known = in_cache(key, count);
-    return known != nullptr ? *known : keep(key, run(structures_[key.of]));
+    if (known != nullptr) {
+        return *known;
+    }
+    require_simulations();
+    return keep(key, run(structures_[key.of]));
 }
 
 std::vector<double> Simulator::mean_over_structures(std::string_view what, std::size_t count, const std::vector<double>& at,

@@ -12,6 +12,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <set>
 #include <string>
 #include <string_view>
@@ -33,7 +34,11 @@ struct ResultKey {
     auto operator<=>(const ResultKey&) const = default;
 };
 
-/// The structures of one sample. Responses (src/responses) run them and keep their results here. Not for several threads at once.
+/// Thrown where something would have to be simulated, and must not be.
+struct NotSimulatedYet {};
+
+/// The structures of one sample. Responses (src/responses) run them and keep their results here. Not for several threads at once
+/// but in the work of `together`.
 class Simulator {
 public:
     using Run = std::function<std::vector<double>(const Packing& structure)>;
@@ -51,7 +56,7 @@ public:
     Simulator& remade(const StructureChange& change);
 
     std::size_t structures() const { return structures_.size(); }
-    const Packing& structure(std::size_t number) const { return structures_[number]; }
+    const Packing& structure(std::size_t number) const;
     /// Numbers of the structures of a group; group 0: of all.
     std::vector<std::size_t> members(std::size_t group) const;
     /// The groups that there are; 0 where there are none.
@@ -64,6 +69,12 @@ public:
     const Progress& progress() const { return progress_; }
     /// Throws std::invalid_argument where no stage measures pores.
     PoreCurve measured_pores(const Packing& packing) const;
+
+    /// Calls work(0) ... work(count - 1), several at once. Where one asks for what was not simulated yet, it is left, and called
+    /// again after all others, by itself: a simulation has all threads.
+    void together(std::size_t count, const std::function<void(std::size_t)>& work);
+    /// Throws NotSimulatedYet within the first calls of `together`.
+    void require_simulations() const;
 
     /// Numbers that were simulated of structure `key.of`: those of the cache if it has `count` of them, else what `run` computes.
     const std::vector<double>& simulated(const ResultKey& key, std::size_t count, const Run& run);
@@ -78,17 +89,22 @@ public:
     template <class Compute>
     const auto& remembered(const ResultKey& key, const Compute& compute) {
         using Value = std::decay_t<decltype(compute())>;
-        auto found = memory_.find(key);
-        if (found == memory_.end()) {
-            found = memory_.emplace(key, compute()).first;
-        }
-        return *std::any_cast<Value>(&found->second);
+        const std::any* found = in_memory(key);
+        return *std::any_cast<Value>(found != nullptr ? found : &into_memory(key, compute()));
     }
 
 private:
     Simulator(Structures structures, std::vector<std::string> names, SimulationCache& cache, Progress progress,
               std::vector<std::size_t> groups, double radius);
     std::string text_of(const ResultKey& key) const;
+    const std::any* in_memory(const ResultKey& key) const;
+    const std::any& into_memory(const ResultKey& key, std::any value);
+
+    /// What threads share, with the simulators of remade structures, too.
+    struct Threads {
+        std::mutex mutex;  ///< of memory_ and remade_
+        bool simulate = true;
+    };
 
     Structures structures_;
     std::vector<std::string> names_;
@@ -100,6 +116,7 @@ private:
     double radius_;
     OtherStages stages_;
     std::map<StructureChange, std::unique_ptr<Simulator>> remade_;
+    std::shared_ptr<Threads> threads_ = std::make_shared<Threads>();
 };
 
 }  // namespace coagula::diagnose

@@ -57,6 +57,7 @@ public:
     Structures(std::vector<std::size_t> particles, std::function<Packing(std::size_t structure)> make);
 
     const Packing& operator[](std::size_t structure) const;
+    bool is_made(std::size_t structure) const { return packings_[structure].has_value(); }
     std::size_t size() const { return particles_.size(); }
     std::size_t particles(std::size_t structure) const { return particles_[structure]; }
 
