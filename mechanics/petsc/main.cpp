@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // coagula-petsc -problem FILE -solution FILE [options of PETSc]: solves the linear problem of a network that `coagula shear
 // --engine petsc` has written, on all processes that mpirun or srun starts.
-#include "schwarz.hpp"
 #include "shared_vector.hpp"
 #include "solve.hpp"
+#include "solvers/schwarz.hpp"
 
 #include <coagula/common/blas_kernels.hpp>
 #include <coagula/common/blas_threads.hpp>

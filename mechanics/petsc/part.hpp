@@ -2,7 +2,7 @@
 // The part of a network that one process has.
 #pragma once
 
-#include "linear_problem_file.hpp"
+#include "response/linear_problem_file.hpp"
 
 #include <vector>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve.hpp"
 
-#include "energy_error.hpp"
-#include "schwarz.hpp"
 #include "shared_vector.hpp"
+#include "solvers/energy_error.hpp"
+#include "solvers/schwarz.hpp"
 
 #include <petscksp.h>
 

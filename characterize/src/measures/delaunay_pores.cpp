@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Measure: spheres between four neighbours and the throats between them.
-#include "../shared_measurements.hpp"
 #include "inner_sums.hpp"
 #include "optional_results.hpp"
+#include "pores/pores_of_diagram.hpp"
 
 namespace coagula::characterize {
 

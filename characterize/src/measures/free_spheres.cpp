@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Measure: the largest sphere that fits into the void, and the largest that can move through it.
-#include "../shared_measurements.hpp"
 #include "measure_options.hpp"
 #include "optional_results.hpp"
 #include "pore_errors.hpp"
+#include "pores/pores_of_diagram.hpp"
 
 namespace coagula::characterize {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Measure: pore sizes after Gelb and Gubbins.
-#include "../shared_measurements.hpp"
 #include "measure_options.hpp"
 #include "optional_results.hpp"
+#include "pores/pores_of_diagram.hpp"
 
 namespace coagula::characterize {
 

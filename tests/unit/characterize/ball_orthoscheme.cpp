@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The closed form for a ball and a right tetrahedron against numerical integration.
-#include "ball_orthoscheme.hpp"
+#include "geometry/ball_orthoscheme.hpp"
 
 #include <coagula/common/random.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/characterize/inner_particles.hpp>
 
-#include "coverage.hpp"
+#include "pores/coverage.hpp"
 #include "test_packings.hpp"
 
 #include <coagula/characterize/pore_sizes.hpp>

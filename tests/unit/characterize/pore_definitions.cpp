@@ -13,8 +13,8 @@
 #include <numbers>
 #include <optional>
 
+#include "pores/touching_sphere.hpp"
 #include "test_packings.hpp"
-#include "touching_sphere.hpp"
 
 namespace coagula::characterize {
 namespace {

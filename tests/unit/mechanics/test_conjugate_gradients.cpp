@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "conjugate_gradients.hpp"
-#include "energy_error.hpp"
-#include "six_column_kernels.hpp"
-#include "stiffness.hpp"
+#include "solvers/conjugate_gradients.hpp"
+#include "solvers/energy_error.hpp"
+#include "solvers/six_column_kernels.hpp"
+#include "solvers/stiffness.hpp"
 
 #include "networks.hpp"
 

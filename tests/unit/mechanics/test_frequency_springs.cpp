@@ -3,8 +3,8 @@
 #include <coagula/mechanics/frequency.hpp>
 #include <coagula/mechanics/linear.hpp>
 
-#include "frequency_pairs.hpp"
 #include "networks.hpp"
+#include "response/frequency_pairs.hpp"
 
 #include <gtest/gtest.h>
 #include <omp.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/mechanics/linear.hpp>
 
-#include "load_bearing.hpp"
 #include "networks.hpp"
-#include "stiffness.hpp"
+#include "solvers/load_bearing.hpp"
+#include "solvers/stiffness.hpp"
 
 #include <omp.h>
 #include <Eigen/Dense>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "load_bearing.hpp"
 #include "networks.hpp"
+#include "solvers/load_bearing.hpp"
 
 #include <gtest/gtest.h>
 

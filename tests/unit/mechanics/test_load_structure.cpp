@@ -2,7 +2,7 @@
 #include <coagula/mechanics/load_structure.hpp>
 
 #include "networks.hpp"
-#include "stiffness.hpp"
+#include "solvers/stiffness.hpp"
 #include "support/lattices.hpp"
 
 #include <omp.h>

@@ -4,8 +4,8 @@
 #include <coagula/generators/void_expansion.hpp>
 #include <coagula/mechanics/linear.hpp>
 
-#include "load_bearing.hpp"
 #include "networks.hpp"
+#include "solvers/load_bearing.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/mechanics/quasistatic.hpp>
 
-#include "loop_analysis.hpp"
+#include "curves/loop_analysis.hpp"
 #include "networks.hpp"
+#include "quasistatic/residual_minimisation.hpp"
 #include "quasistatic_examples.hpp"
-#include "residual_minimisation.hpp"
 
 #include <coagula/mechanics/linear.hpp>
 

@@ -18,7 +18,7 @@
 #include "support/lattices.hpp"
 
 #include "diluted_crystal.hpp"
-#include "plates.hpp"
+#include "explicit/plates.hpp"
 
 namespace coagula::mechanics {
 namespace {

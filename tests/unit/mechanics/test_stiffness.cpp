@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "networks.hpp"
-#include "stiffness.hpp"
+#include "solvers/stiffness.hpp"
 
 #include <Eigen/Dense>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "updated_factor.hpp"
+#include "quasistatic/updated_factor.hpp"
 
 #include "quasistatic_examples.hpp"
 

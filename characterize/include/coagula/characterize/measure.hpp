@@ -3,6 +3,7 @@
 // text, the file and the JSON object follow from it. docs/development/architecture.md says how a measure is added.
 #pragma once
 
+#include <coagula/characterize/applicable.hpp>
 #include <coagula/characterize/measure_input.hpp>
 #include <coagula/common/dataset.hpp>
 #include <coagula/common/readable.hpp>
@@ -59,14 +60,6 @@ public:
     std::vector<ParticleField> fields;
     Table lines;
 };
-
-/// Thrown by a measure that is not defined for the packing at hand (open, unequal spheres ...), with a sentence that says why.
-/// Asked for by name this is an error; otherwise the measure is left out and the table says so.
-struct NotApplicable : std::invalid_argument {
-    using std::invalid_argument::invalid_argument;
-};
-/// Throws NotApplicable(sentence) unless the condition holds.
-void require_applicable(bool condition, const std::string& sentence);
 
 /// One line of the table of measures.
 struct Measure {

@@ -13,6 +13,8 @@ struct ShearOrientation {
     int direction = 0;
 
     bool is_uniaxial() const { return normal == direction; }
+    /// Place of this component of a symmetric tensor: xx, yy, zz, yz, xz, xy.
+    int voigt() const { return is_uniaxial() ? normal : 6 - normal - direction; }
 };
 
 /// The six orientations of the paper: xy, xz, yx, yz, zx, zy (normal, direction).
