@@ -86,7 +86,11 @@ private:
     void add_shares() const {
         const Eigen::MatrixXd values = particle_values();
         const Eigen::VectorXd mean = means_of(sum_inner(input_, values));
-        const Eigen::VectorXd error = errors_of_means(input_, values, means_of);
+        Eigen::VectorXd error = errors_of_means(input_, values, means_of);
+        constexpr Index fewest = 20;  // particles with a part in the mean; of fewer the blocks say too little
+        for (Index one = 0; one < error.size(); ++one) {
+            error[one] = (values.row(1 + one).array() > 0).count() < fewest ? unset : error[one];
+        }
         result_.add(path("largest_fraction"), mean[0], "1", "particles in the largest cluster over all");
         result_.add(path("fraction"), mean[1], "1", "particles in some cluster over all", error[1]);
         result_.add(path("shared_fraction"), mean[2], "1", "particles that belong to two or more clusters over all", error[2]);

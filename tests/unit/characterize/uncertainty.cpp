@@ -59,9 +59,11 @@ bool needs_no_error(const std::string& name) {
     const bool whole = name.starts_with("betweenness/") ||
                        ((name.starts_with("dense_clusters/") || name.starts_with("coordination_percolation/")) &&
                         of_the_whole.contains(name.substr(name.rfind('/') + 1)));
+    // Hardly any two tetrahedra meet in packings of this size.
+    const bool rare = name == "dense_clusters/tetrahedra/shared_fraction" || name == "dense_clusters/tetrahedra/contacts_between";
     const std::string last = name.substr(name.find('/') + 1);
     const bool check = last == "largest_zero" || last == "smallest_nonzero" || last == "trace_defect";
-    return exempt.contains(name) || check || whole || name.starts_with("uncertainty/");
+    return exempt.contains(name) || check || whole || rare || name.starts_with("uncertainty/");
 }
 
 std::vector<std::string> scalars_of(const MeasureResult& found) {
