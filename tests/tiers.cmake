@@ -21,7 +21,7 @@ set(coagula_slow_tests
   "PoreCurves[.].*"
   "Power[.].*"
   "Prestress[.].*"
-  "Remainder[.]AValueAtTheEnd.*"
+  "Discrepancy[.]AValueAtTheEnd.*"
   "StoredResults[.]AreMadeAgain.*"
   "StructureError[.].*"
   "StructureSeries[.].*"

@@ -18,10 +18,10 @@ namespace coagula::diagnose {
 namespace {
 
 constexpr std::size_t most_pairs = 4;
-/// A best cause with a larger p-value easily passes: pairs are not tried, and few causes beside a remainder.
+/// A best cause with a larger p-value easily passes: pairs are not tried, and few causes beside a discrepancy.
 constexpr double easily_passes = 0.2;
-constexpr std::size_t most_with_remainder = 6;
-constexpr std::size_t few_with_remainder = 2;
+constexpr std::size_t most_with_discrepancy = 6;
+constexpr std::size_t few_with_discrepancy = 2;
 
 template <class Weight>
 std::size_t heaviest_cause(const std::vector<Compared>& all, const Weight& weight) {
@@ -30,13 +30,13 @@ std::size_t heaviest_cause(const std::vector<Compared>& all, const Weight& weigh
     return static_cast<std::size_t>(best - all.begin());
 }
 
-/// Finds the remainder of the base model, and of the causes that explain most, alone or beside the remainder that the base
+/// Finds the discrepancy of the base model, and of the causes that explain most, alone or beside the discrepancy that the base
 /// model has: a cause may hide behind one that makes a part of what is left over. @param most of each kind.
-void find_remainders(const Inference& inference, std::size_t most, std::vector<Compared>& all) {
+void find_discrepancies(const Inference& inference, std::size_t most, std::vector<Compared>& all) {
     const SmoothDepartures departures = smooth_departures(inference.errors().data().observations);
     Simulator& simulator = inference.forward().simulator();
-    all.front().remainder = find_remainder(inference, all.front().fit, departures);
-    const Eigen::MatrixXd& directions = all.front().remainder->directions;
+    all.front().discrepancy = find_discrepancy(inference, all.front().fit, departures);
+    const Eigen::MatrixXd& directions = all.front().discrepancy->directions;
     std::vector<std::pair<double, std::size_t>> alone;
     std::vector<std::pair<double, std::size_t>> beside;
     for (std::size_t k = 1; k < all.size(); ++k) {
@@ -58,7 +58,7 @@ void find_remainders(const Inference& inference, std::size_t most, std::vector<C
     const std::vector<std::size_t> numbers(chosen.begin(), chosen.end());
     simulator.together(numbers.size(), [&](std::size_t k) {
         Compared& one = all[numbers[k]];
-        one.remainder = inference.apart([&](const Inference& own) { return find_remainder(own, one.fit, departures); });
+        one.discrepancy = inference.apart([&](const Inference& own) { return find_discrepancy(own, one.fit, departures); });
     });
 }
 
@@ -179,17 +179,17 @@ Priors priors_of(const DiagnosisOptions& options, std::size_t mechanisms) {
             .beside = std::log(options.none_prior / static_cast<double>(std::max<std::size_t>(1, mechanisms)))};
 }
 
-double Compared::log_weight_with_remainder(const Priors& priors) const {
-    return remainder ? log_weight() + (fit.hypothesis.empty() ? priors.none : priors.beside) + remainder->log_factor
-                     : -std::numeric_limits<double>::infinity();
+double Compared::log_weight_with_discrepancy(const Priors& priors) const {
+    return discrepancy ? log_weight() + (fit.hypothesis.empty() ? priors.none : priors.beside) + discrepancy->log_factor
+                       : -std::numeric_limits<double>::infinity();
 }
 
 double Compared::log_total(const Priors& priors) const {
-    return log_sum({log_weight(), log_weight_with_remainder(priors)});
+    return log_sum({log_weight(), log_weight_with_discrepancy(priors)});
 }
 
 double Comparison::log_weight_of_none(const Priors& priors) const {
-    const double smooth = all.front().log_weight_with_remainder(priors);
+    const double smooth = all.front().log_weight_with_discrepancy(priors);
     if (forms.empty()) {
         return smooth;
     }
@@ -231,7 +231,7 @@ Comparison compare(const Fit& base, const Hypothesis& possible, const Inference&
     }
     Comparison comparison{.all = fits.taken()};
     if (effort == Effort::whole) {
-        find_remainders(inference, rest.p_value < easily_passes ? most_with_remainder : few_with_remainder, comparison.all);
+        find_discrepancies(inference, rest.p_value < easily_passes ? most_with_discrepancy : few_with_discrepancy, comparison.all);
         comparison.forms = free_forms(inference, base);
     }
     comparison.winner = heaviest_cause(comparison.all, [&](const Compared& one) { return one.log_total(priors); });

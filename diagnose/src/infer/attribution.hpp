@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which cause explains the data: the base model, every cause and pairs, each alone and with a remainder on top.
+// Which cause explains the data: the base model, every cause and pairs, each alone and with a discrepancy on top.
 #pragma once
 
+#include "discrepancy.hpp"
 #include "free_forms.hpp"
 #include "hypothesis.hpp"
-#include "remainder.hpp"
 
 #include <coagula/common/progress.hpp>
 #include <coagula/diagnose/diagnosis.hpp>
@@ -17,20 +17,20 @@ namespace coagula::diagnose {
 /// Logarithms of prior weights over that of a single mechanism.
 struct Priors {
     double pair;    ///< of one pair
-    double none;    ///< of a remainder alone
-    double beside;  ///< of a remainder beside a cause: all causes together as probable as none of them
+    double none;    ///< of a discrepancy alone
+    double beside;  ///< of a discrepancy beside a cause: all causes together as probable as none of them
 };
 
 Priors priors_of(const DiagnosisOptions& options, std::size_t mechanisms);
 
-/// A hypothesis without and with a remainder.
+/// A hypothesis without and with a discrepancy.
 struct Compared {
     Fit fit;
     double log_prior = 0;
-    std::optional<SmoothRemainder> remainder = {};  ///< once it was looked for
+    std::optional<Discrepancy> discrepancy = {};  ///< once it was looked for
 
     double log_weight() const { return fit.log_evidence + log_prior; }
-    double log_weight_with_remainder(const Priors& priors) const;
+    double log_weight_with_discrepancy(const Priors& priors) const;
     double log_total(const Priors& priors) const;
 };
 
@@ -45,7 +45,7 @@ struct Comparison {
     double log_weight_of_none(const Priors& priors) const;
 };
 
-/// Extent of the search: in brief without remainders and with one pair.
+/// Extent of the search: in brief without discrepancies and with one pair.
 enum class Effort { whole, brief };
 
 /// Fits single causes; where the best does not pass the test with ease, it is paired with those causes towards which the data still

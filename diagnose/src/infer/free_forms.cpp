@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "free_forms.hpp"
 
-#include "remainder.hpp"
+#include "discrepancy.hpp"
 #include "smooth.hpp"
 
 #include <coagula/common/log_probability.hpp>

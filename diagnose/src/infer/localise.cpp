@@ -190,16 +190,16 @@ std::vector<Misfit> localise(const Inference& inference, const Fit& base, const 
 
 namespace {
 
-/// Numbers of one observable that a remainder moves, and how far, over |G*|.
+/// Numbers of one observable that a discrepancy moves, and how far, over |G*|.
 struct Moved {
     std::vector<Index> rows;
     Eigen::VectorXd share;  ///< of every number
     Index largest = 0;
 };
 
-Moved moved_by(const SmoothRemainder& remainder, const DataSet& data, const Eigen::VectorXd& prediction) {
+Moved moved_by(const Discrepancy& discrepancy, const DataSet& data, const Eigen::VectorXd& prediction) {
     Moved moved;
-    moved.share = (remainder.departure.array() / complex_moduli(data.observations, prediction).max(1e-300)).matrix();
+    moved.share = (discrepancy.departure.array() / complex_moduli(data.observations, prediction).max(1e-300)).matrix();
     moved.share.cwiseAbs().maxCoeff(&moved.largest);
     const Observable& observable = observable_of(data.observations[static_cast<std::size_t>(moved.largest)]);
     constexpr double part = 0.5;
@@ -215,7 +215,7 @@ Moved moved_by(const SmoothRemainder& remainder, const DataSet& data, const Eige
 
 }  // namespace
 
-void place(const SmoothRemainder& departing, const DataSet& data, const Eigen::VectorXd& prediction, Remainder& remainder) {
+void place(const Discrepancy& departing, const DataSet& data, const Eigen::VectorXd& prediction, Remainder& remainder) {
     const Moved moved = moved_by(departing, data, prediction);
     remainder.observable = observable_of(data.observations[static_cast<std::size_t>(moved.largest)]).key;
     remainder.largest = moved.share[moved.largest];

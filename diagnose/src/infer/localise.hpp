@@ -3,7 +3,7 @@
 #pragma once
 
 #include "detection.hpp"
-#include "remainder.hpp"
+#include "discrepancy.hpp"
 
 #include <coagula/diagnose/diagnosis.hpp>
 
@@ -17,6 +17,6 @@ std::vector<Misfit> localise(const Inference& inference, const Fit& base, const 
 
 /// Says where a smooth departure lies and how large it is.
 /// @param prediction of the model that leaves it over.
-void place(const SmoothRemainder& departing, const DataSet& data, const Eigen::VectorXd& prediction, Remainder& remainder);
+void place(const Discrepancy& departing, const DataSet& data, const Eigen::VectorXd& prediction, Remainder& remainder);
 
 }  // namespace coagula::diagnose

@@ -65,7 +65,7 @@ CauseSet common_causes(const std::vector<CauseSet>& set, const Hypothesis& possi
 }
 
 /// Chi-square beyond its expectation, of a fit with a departure on top.
-double misfit(const Inference& inference, const Fit& fit, const SmoothRemainder* on_top) {
+double misfit(const Inference& inference, const Fit& fit, const Discrepancy* on_top) {
     Prediction prediction = inference.prediction(fit.model);
     if (on_top != nullptr) {
         prediction.values += on_top->departure;
@@ -77,8 +77,8 @@ double misfit(const Inference& inference, const Fit& fit, const SmoothRemainder*
 /// Whether the best cause with a smooth departure on top leaves more than half of what the base model leaves.
 bool leaves_most(const Comparison& comparison, const Inference& inference) {
     const Compared& winner = comparison.all[comparison.winner];
-    const double left =
-        winner.remainder ? misfit(inference, winner.remainder->fit, &*winner.remainder) : misfit(inference, winner.fit, nullptr);
+    const double left = winner.discrepancy ? misfit(inference, winner.discrepancy->fit, &*winner.discrepancy)
+                                           : misfit(inference, winner.fit, nullptr);
     const double chance = 3 * std::sqrt(2 * static_cast<double>(inference.errors().size()));
     return left > 0.5 * misfit(inference, comparison.all.front().fit, nullptr) + chance;
 }
@@ -90,16 +90,16 @@ double share_left(const Comparison& comparison, const Inference& inference) {
     return base > 0 ? std::clamp(left / base, 0.0, 1.0) : 1.0;
 }
 
-/// Whether a cause adds to a remainder that explains the data without it.
-bool adds_to_remainder(const Compared& one, const Comparison& comparison, const Priors& priors) {
+/// Whether a cause adds to a discrepancy that explains the data without it.
+bool adds_to_discrepancy(const Compared& one, const Comparison& comparison, const Priors& priors) {
     constexpr double noticeable = 1;  // logarithms
-    const double none = comparison.all.front().log_weight_with_remainder(priors) - priors.none;
-    return one.log_weight_with_remainder(priors) - priors.beside > none + noticeable;
+    const double none = comparison.all.front().log_weight_with_discrepancy(priors) - priors.none;
+    return one.log_weight_with_discrepancy(priors) - priors.beside > none + noticeable;
 }
 
-/// Weight of a cause, alone and with a remainder to which it adds.
+/// Weight of a cause, alone and with a discrepancy to which it adds.
 double log_weight_of(const Compared& one, const Comparison& comparison, const Priors& priors) {
-    return adds_to_remainder(one, comparison, priors) ? one.log_total(priors) : one.log_weight();
+    return adds_to_discrepancy(one, comparison, priors) ? one.log_total(priors) : one.log_weight();
 }
 
 /// Weight of "none of the catalogue": a smooth departure from the base model, or the free form of a link. Where the best cause
@@ -125,8 +125,8 @@ void rank_causes(const Comparison& comparison, const Inference& inference, const
     for (std::size_t k = 0; k < comparison.all.size(); ++k) {
         const Compared& one = comparison.all[k];
         const bool leaves_remainder =
-            adds_to_remainder(one, comparison, priors) && one.log_weight_with_remainder(priors) > one.log_weight();
-        diagnosis.causes.push_back(cause_of(leaves_remainder ? one.remainder->fit : one.fit, inference));
+            adds_to_discrepancy(one, comparison, priors) && one.log_weight_with_discrepancy(priors) > one.log_weight();
+        diagnosis.causes.push_back(cause_of(leaves_remainder ? one.discrepancy->fit : one.fit, inference));
         diagnosis.causes.back().posterior = posterior[k];
         diagnosis.causes.back().leaves_remainder = leaves_remainder;
     }
@@ -275,7 +275,7 @@ void judge(const Comparison& comparison, const Inference& inference, const Hypot
     diagnosis.remainder.detected = comparison.p_value <= options.level;
     diagnosis.remainder.most = diagnosis.remainder.detected && leaves_most(comparison, inference);
     if (diagnosis.remainder.detected) {
-        place(*winner.remainder, inference.errors().data(), inference.fitted(inference.prediction(winner.remainder->fit.model)),
+        place(*winner.discrepancy, inference.errors().data(), inference.fitted(inference.prediction(winner.discrepancy->fit.model)),
               diagnosis.remainder);
     }
     diagnosis.kinds = kinds_of(comparison, inference.forward().experiment());

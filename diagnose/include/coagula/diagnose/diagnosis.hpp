@@ -56,7 +56,7 @@ struct Cause {
     std::string words = {};  ///< what it changes
     double posterior = 0;
     double log_evidence = 0;
-    bool leaves_remainder = false;                    ///< it is more probable with a smooth remainder on top than alone
+    bool leaves_remainder = false;                    ///< it is more probable with a smooth discrepancy on top than alone
     std::vector<EstimatedParameter> parameters = {};  ///< the stiffness of the particles first, where a modulus shows it
     Model model = {};                                 ///< most probable
     Eigen::MatrixXd draws = {};                       ///< from the posterior: parameters x equally probable draws
@@ -220,7 +220,7 @@ struct Diagnosis {
     Cause base;
     std::vector<Cause> causes;           ///< all that were compared, most probable first
     std::vector<CauseSet> credible_set;  ///< smallest set with 95 % of the posterior; pairs with a member of the set left out
-    CauseSet best;                       ///< cause that explains most, alone or with a remainder, where something was detected
+    CauseSet best;                       ///< cause that explains most, alone or with a discrepancy, where something was detected
     CauseSet certain;                    ///< causes that all of the credible set have, alone or in a pair
     Follows follows;                     ///< where something was detected
     std::vector<FollowedKind> kinds;     ///< of departure, most probable first

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "remainder.hpp"
+#include "discrepancy.hpp"
 
 #include "noise/low_rank.hpp"
 
@@ -20,7 +20,7 @@ namespace {
 constexpr double normal_half_width = 1.645;  ///< of 90 %, in standard deviations
 constexpr double free_deviation = 1;         ///< of what follows freely: a logarithm, or the place in the whole of a prior
 
-/// A model about which a remainder is looked for, with all that follows one along straight lines.
+/// A model about which a discrepancy is looked for, with all that follows one along straight lines.
 struct Start {
     Fit fit;
     Prediction prediction{Eigen::VectorXd{}};
@@ -182,7 +182,7 @@ Eigen::MatrixXd draws_of(const Inference& inference, const Start& start, const F
     return draws;
 }
 
-/// Density of the data without a remainder. Where part of the data lies far off, the integral over what follows may find a
+/// Density of the data without a discrepancy. Where part of the data lies far off, the integral over what follows may find a
 /// lower maximum than the fit has found; then the density about the fit counts.
 double density_alone(const ErrorModel& errors, const Start& start) {
     const Index follow = start.following.cols();
@@ -206,10 +206,10 @@ std::vector<double> densities_beside(const Inference& inference, const Start& st
 }
 
 /// Finds the best of all departures at a start.
-SmoothRemainder remainder_at(const Inference& inference, const Start& start, const SmoothDepartures& departures, double alone) {
+Discrepancy discrepancy_at(const Inference& inference, const Start& start, const SmoothDepartures& departures, double alone) {
     const ErrorModel& errors = inference.errors();
     const Eigen::VectorXd level = complex_moduli(errors.data().observations, inference.fitted(start.prediction));
-    SmoothRemainder found{.fit = start.fit};
+    Discrepancy found{.fit = start.fit};
     std::vector<double> all;
     for (const std::vector<SmoothDeparture>& group : departures) {
         std::vector<double> members;
@@ -233,11 +233,11 @@ SmoothRemainder remainder_at(const Inference& inference, const Start& start, con
 
 }  // namespace
 
-SmoothRemainder find_remainder(const Inference& inference, const Fit& fit, const SmoothDepartures& departures) {
+Discrepancy find_discrepancy(const Inference& inference, const Fit& fit, const SmoothDepartures& departures) {
     const ErrorModel& errors = inference.errors();
     Start start = start_of(inference, fit);
     const double alone = density_alone(errors, start);
-    SmoothRemainder found = remainder_at(inference, start, departures, alone);
+    Discrepancy found = discrepancy_at(inference, start, departures, alone);
     Followed at_best = followed(inference, start, found.factor);
     // Far from there neither the lines nor the amplitudes, shares of the level, are right.
     constexpr int rounds = 2;
@@ -245,7 +245,7 @@ SmoothRemainder find_remainder(const Inference& inference, const Fit& fit, const
         Start moved = start;
         move_to(moved, inference, moved_fit(inference, start, at_best),
                 beside(start.following, errors.data().noise.whitened(found.factor)));
-        SmoothRemainder there = remainder_at(inference, moved, departures, alone);
+        Discrepancy there = discrepancy_at(inference, moved, departures, alone);
         if (!(there.best > found.best)) {
             break;
         }

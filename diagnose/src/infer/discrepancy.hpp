@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Remainder of a model: a smooth deviation on top of it (Kennedy and O'Hagan, J. R. Stat. Soc. B 63 (2001) 425).
+// Discrepancy of a model: a smooth deviation on top of it (Kennedy and O'Hagan, J. R. Stat. Soc. B 63 (2001) 425).
 #pragma once
 
 #include "hypothesis.hpp"
@@ -11,7 +11,7 @@
 
 namespace coagula::diagnose {
 
-struct SmoothRemainder {
+struct Discrepancy {
     double log_factor = 0;  ///< on the evidence of the fit, averaged over coordinates, amplitudes and lengths
     Fit fit = {};           ///< most probable beside the best one; intervals are those of a normal posterior
     double best = -std::numeric_limits<double>::infinity();  ///< logarithm of the factor of the best one
@@ -23,7 +23,7 @@ struct SmoothRemainder {
 
 /// At a fit, whose stiffness and parameters follow: linearised there, and again where they are led to. Those at an active end of
 /// their prior stay.
-SmoothRemainder find_remainder(const Inference& inference, const Fit& fit, const SmoothDepartures& departures);
+Discrepancy find_discrepancy(const Inference& inference, const Fit& fit, const SmoothDepartures& departures);
 
 /// What departures along some directions beside a fit explain.
 struct DeparturesAlong {
@@ -33,7 +33,7 @@ struct DeparturesAlong {
 /// @param directions sets of unit amplitude [unit of the numbers].
 DeparturesAlong departures_along(const Inference& inference, const Fit& fit, const std::vector<Eigen::MatrixXd>& directions);
 
-/// Factor on the evidence of the fit by a remainder along these directions alone, as a logarithm.
+/// Factor on the evidence of the fit by a discrepancy along these directions alone, as a logarithm.
 double log_factor_along(const Inference& inference, const Fit& fit, const Eigen::MatrixXd& directions);
 
 }  // namespace coagula::diagnose

@@ -6,7 +6,7 @@
 
 #include "credible_set.hpp"
 #include "hidden_effects.hpp"
-#include "infer/remainder.hpp"
+#include "infer/discrepancy.hpp"
 #include "responses/linear_modulus.hpp"
 
 #include <gtest/gtest.h>
@@ -66,7 +66,7 @@ std::complex<double> with_inertia(double frequency) {
     return level - 3e-5 * frequency * frequency * per_torque();
 }
 
-TEST(Remainder, IsNothingWhereTheCauseExplainsAll) {
+TEST(Discrepancy, IsNothingWhereTheCauseExplainsAll) {
     const Diagnosis found = diagnosed(sweeps_of(with_inertia, 100));
     ASSERT_EQ(found.verdict, Verdict::named);
     EXPECT_EQ(name_of(found.credible_set.front()), "tool-inertia");
@@ -78,7 +78,7 @@ TEST(Remainder, IsNothingWhereTheCauseExplainsAll) {
 
 /// The inertia is there beside a bump of G'' at 12 rad/s, which nothing in the catalogue makes: it is the best cause, and what it
 /// leaves over is placed, but it has no name.
-TEST(Remainder, IsPlacedBesideACause) {
+TEST(Discrepancy, IsPlacedBesideACause) {
     const auto bumped = [](double frequency) {
         const double bump = 0.15 * level * std::exp(-0.5 * std::pow(std::log10(frequency / 12) / 0.25, 2));
         return with_inertia(frequency) + std::complex<double>(0, bump);
@@ -98,9 +98,9 @@ TEST(Remainder, IsPlacedBesideACause) {
     EXPECT_GT(inertia.high, 2.95e-5);
 }
 
-/// A bump of G' where the inertia shows draws the fit without a remainder away; beside it the parameters are where a remainder
+/// A bump of G' where the inertia shows draws the fit without a discrepancy away; beside it the parameters are where a discrepancy
 /// about them would have them, too.
-TEST(Remainder, LeadsTheParametersToWhereTheyStay) {
+TEST(Discrepancy, LeadsTheParametersToWhereTheyStay) {
     const Experiment experiment = sweeps_of(
         [](double frequency) {
             return with_inertia(frequency) + 0.2 * level * std::exp(-0.5 * std::pow(std::log10(frequency / 150) / 0.3, 2));
@@ -112,8 +112,8 @@ TEST(Remainder, LeadsTheParametersToWhereTheyStay) {
     const Inference inference(forward, errors);
     const SmoothDepartures departures = smooth_departures(data.observations);
     const Fit without = inference.fit({find_mechanism("tool-inertia")});
-    const SmoothRemainder first = find_remainder(inference, without, departures);
-    const SmoothRemainder again = find_remainder(inference, first.fit, departures);
+    const Discrepancy first = find_discrepancy(inference, without, departures);
+    const Discrepancy again = find_discrepancy(inference, first.fit, departures);
     const Posterior& beside = first.fit.parameters.front();
     const double half = 0.5 * (beside.high - beside.low);
     EXPECT_GT(std::abs(without.parameters.front().value - beside.value), 0.5 * half);
@@ -124,7 +124,7 @@ TEST(Remainder, LeadsTheParametersToWhereTheyStay) {
 }
 
 /// A smooth material follows by its own functions and keeps the parameters where they are; they are no better known for that.
-TEST(Remainder, OfASmoothMaterialLeavesNoIntervalOfZeroWidth) {
+TEST(Discrepancy, OfASmoothMaterialLeavesNoIntervalOfZeroWidth) {
     Experiment experiment = sweeps_of(
         [](double frequency) { return std::complex<double>(1, 0.2) * with_inertia(frequency) * (frequency > 100 ? 1.2 : 1.0); }, 5);
     experiment.material.kind = MaterialKind::smooth;
@@ -134,7 +134,7 @@ TEST(Remainder, OfASmoothMaterialLeavesNoIntervalOfZeroWidth) {
     const Inference inference(forward, errors);
     for (const char* cause : {"tool-inertia", "bearing-damping"}) {
         const Fit without = inference.fit({find_mechanism(cause)});
-        const SmoothRemainder beside = find_remainder(inference, without, smooth_departures(data.observations));
+        const Discrepancy beside = find_discrepancy(inference, without, smooth_departures(data.observations));
         const Posterior& parameter = beside.fit.parameters.front();
         EXPECT_LT(parameter.low, parameter.high) << cause;
         EXPECT_LE(parameter.low, parameter.value) << cause;
@@ -144,9 +144,9 @@ TEST(Remainder, OfASmoothMaterialLeavesNoIntervalOfZeroWidth) {
     }
 }
 
-/// Beside a remainder that explains all there is nothing for a cause to add: its parameters lie anywhere in their priors, which is
-/// no evidence for it.
-TEST(Remainder, ThatExplainsAllIsNoEvidenceForACause) {
+/// Beside a discrepancy that explains all there is nothing for a cause to add: its parameters lie anywhere in their priors, which
+/// is no evidence for it.
+TEST(Discrepancy, ThatExplainsAllIsNoEvidenceForACause) {
     const Experiment experiment = sweeps_of(
         [](double frequency) { return level * (1 + 0.03 * std::exp(-std::pow(std::log10(frequency / 12), 2) / 0.1)); }, 100);
     const DataSet data = data_set_of(experiment, {.sample = 0.02});
@@ -156,7 +156,7 @@ TEST(Remainder, ThatExplainsAllIsNoEvidenceForACause) {
     const SmoothDepartures departures = smooth_departures(data.observations);
     const auto evidence = [&](const Hypothesis& causes) {
         const Fit fit = inference.fit(causes);
-        return fit.log_evidence + find_remainder(inference, fit, departures).log_factor;
+        return fit.log_evidence + find_discrepancy(inference, fit, departures).log_factor;
     };
     const double none = evidence({});
     for (const char* cause : {"tool-inertia", "contact-loss", "contact-relaxation", "phase-offset"}) {
@@ -165,7 +165,7 @@ TEST(Remainder, ThatExplainsAllIsNoEvidenceForACause) {
 }
 
 /// All that is seen is a level below that of the known particles: many causes lower it.
-TEST(Remainder, OfTheLevelAloneNamesNoCauseAlone) {
+TEST(Discrepancy, OfTheLevelAloneNamesNoCauseAlone) {
     Experiment experiment = sweeps_of([](double) { return level; }, 13);
     const double stiffness = level / linear_modulus(simulator(), {}) * Settings{}.normal_stiffness;
     experiment.sample.normal_stiffness = 1.5 * stiffness;
@@ -178,7 +178,7 @@ TEST(Remainder, OfTheLevelAloneNamesNoCauseAlone) {
 }
 
 /// A tool far heavier than any: the value stays at the end of the range, which is said.
-TEST(Remainder, AValueAtTheEndOfItsRangeIsFlagged) {
+TEST(Discrepancy, AValueAtTheEndOfItsRangeIsFlagged) {
     const auto heavy = [](double frequency) { return std::complex<double>(level - 2.5e-3 * frequency * frequency * per_torque()); };
     const Diagnosis found = diagnosed(sweeps_of(heavy, 17));
     EXPECT_TRUE(found.detected);
