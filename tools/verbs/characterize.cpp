@@ -89,8 +89,9 @@ void run_characterize(const Arguments& arguments) {
     progress.update("writing", 1.0);
     Json json = to_json(found.results, found.group);
     std::move(found.bond_results.begin(), found.bond_results.end(), std::back_inserter(found.results));
-    io::add_results(arguments.input(), target, replaced_groups(found), std::nullopt, found.fields, found.results,
-                    describe_call(arguments, &packing, clock), arguments.flag("force"));
+    io::add_results(arguments.input(), target,
+                    {replaced_groups(found), std::nullopt, found.fields, found.results, describe_call(arguments, &packing, clock)},
+                    arguments.flag("force"));
     json["output"] = target;
     json["seconds"] = clock.seconds();
     found.table.emplace_back("written to", target);

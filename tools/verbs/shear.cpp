@@ -34,8 +34,10 @@ Printed shear_file(const Arguments& arguments, const ShearRun& run, const std::s
     progress.update("writing", 1.0);
     Json json = to_json(found.results, found.group);
     std::move(found.bond_results.begin(), found.bond_results.end(), std::back_inserter(found.results));
-    io::add_results(source, target, replaced_groups(found), bonds, found.fields, found.results,
-                    describe_call(arguments, &packing, clock, found.engine), arguments.flag("force"), found.bond_fields);
+    io::add_results(source, target,
+                    {replaced_groups(found), bonds, found.fields, found.results,
+                     describe_call(arguments, &packing, clock, found.engine), found.bond_fields},
+                    arguments.flag("force"));
     if (json.value("floppy_modes", 0) < 0) {
         json["floppy_modes"] = nullptr;
     }

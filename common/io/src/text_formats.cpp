@@ -187,24 +187,24 @@ Packing read_text(const std::string& path, TextFormat format, const ImportOption
     return read_frames(path, format, options).packing;
 }
 
-void write_text(const std::string& path, TextFormat format, const Packing& packing, const std::optional<ContactNetwork>& bonds,
-                bool overwrite, const std::vector<Frame>& earlier, double time, bool dump_units) {
+void write_text(const std::string& path, TextFormat format, const Structure& structure, bool overwrite, bool dump_units) {
+    const Packing& packing = structure.packing;
     check_output(path, overwrite);
     check(packing);
     if (format == TextFormat::lammps_data || format == TextFormat::lammps_dump) {
         require_restricted(path, packing.cell);
     }
-    const Trajectory run{packing, earlier, time};
+    const Trajectory run{packing, structure.earlier, structure.time};
     switch (format) {
         case TextFormat::csv:
             return write_file(path, csv_text(run), overwrite);
         case TextFormat::extended_xyz:
             return write_file(path, extended_xyz_text(run), overwrite);
         case TextFormat::lammps_data:
-            if (!earlier.empty()) {
+            if (!structure.earlier.empty()) {
                 throw InputError("LAMMPS data holds one frame: a trajectory goes into a LAMMPS dump, extended XYZ, GSD or CSV");
             }
-            return write_file(path, lammps_text(packing, bonds), overwrite);
+            return write_file(path, lammps_text(packing, structure.bonds), overwrite);
         case TextFormat::lammps_dump:
             return write_file(path, dump_text(run, dump_units), overwrite);
     }

@@ -206,17 +206,13 @@ void write_structure(const std::string& path, const Structure& structure, const 
     write_file(path, file.close(), overwrite);
 }
 
-void add_results(const std::string& source, const std::string& target, const std::vector<std::string>& replaced,
-                 const std::optional<ContactNetwork>& bonds, const std::vector<ParticleField>& fields,
-                 const std::vector<Dataset>& results, const Provenance& provenance, bool overwrite,
-                 const std::vector<BondField>& bond_fields) {
+void add_results(const std::string& source, const std::string& target, const Addition& added, bool overwrite) {
     std::error_code missing;
     const bool in_place = std::filesystem::equivalent(source, target, missing);
     OutputFile output(target, overwrite || in_place);  // from here on nobody else adds to the file
-    for (const std::string& group : in_place && !overwrite ? replaced : std::vector<std::string>()) {
-        check_conditions(source, group, results);
+    for (const std::string& group : in_place && !overwrite ? added.replaced : std::vector<std::string>()) {
+        check_conditions(source, group, added.results);
     }
-    const Addition added{replaced, bonds, fields, results, provenance, bond_fields};
     const std::string bytes = run_in_child(source, [&](ReadingLimits& limits) {
         const File old = File::open(source);
         const Structure structure = read_structure(old);

@@ -230,10 +230,9 @@ struct FoldGain {
 };
 
 FoldGain gain_of_fold(const DataSet& all, const std::vector<bool>& held_out, const Forward& everywhere,
-                      const Eigen::VectorXd& structure_deviation, const SmoothDepartures& departures, const Hypothesis& possible,
-                      const DiagnosisOptions& options) {
+                      const SmoothDepartures& departures, const Hypothesis& possible, const DiagnosisOptions& options) {
     const Experiment& experiment = everywhere.experiment();
-    DataSet data = with_errors_of_the_rest(all, held_out, experiment, structure_deviation, options);
+    DataSet data = with_errors_of_the_rest(all, held_out, experiment, everywhere.structure_deviation(all.values), options);
     const std::vector<Index> known_rows = rows_where(held_out, false);
     const std::vector<Index> held_rows = rows_where(held_out, true);
     DataSet known = data.part(known_rows);
@@ -277,11 +276,10 @@ Gain measure_gain(const DataSet& all, const std::vector<std::vector<bool>>& fold
     }
     const Forward everywhere(experiment, all.observations, simulator);
     const SmoothDepartures departures = smooth_departures(all.observations);
-    const Eigen::VectorXd structure_deviation = everywhere.structure_deviation(all.values);
     std::vector<FoldGain> gains(folds.size());
     simulator.together(folds.size(), [&](std::size_t k) {
         const Forward own(everywhere);
-        gains[k] = gain_of_fold(all, folds[k], own, structure_deviation, departures, possible, options);
+        gains[k] = gain_of_fold(all, folds[k], own, departures, possible, options);
     });
     FoldGain sum;
     std::vector<std::vector<double>> differences;

@@ -23,20 +23,32 @@ std::string symbol_with(const std::string& name, const std::string& symbol) {
 }
 
 /// G' filled and G'' open, with the spread over the orientations; a G'' of zero is not there.
-void add_moduli(Chart& chart, const std::string& name, int colour, const std::vector<double>& x, const std::vector<double>& storage,
-                const std::vector<double>& storage_spread, const std::vector<double>& loss,
-                const std::vector<double>& loss_spread) {
+/// Moduli along an axis; a spread may be empty.
+struct Moduli {
+    std::vector<double> x;
+    std::vector<double> storage;
+    std::vector<double> storage_spread;
+    std::vector<double> loss;
+    std::vector<double> loss_spread;
+};
+
+Moduli moduli_over(const FigureSource& source, const std::string& axis, const std::string& group) {
+    return {source.numbers(axis), source.numbers(group + "storage_modulus/mean"), source.numbers(group + "storage_modulus/std"),
+            source.numbers(group + "loss_modulus/mean"), source.numbers(group + "loss_modulus/std")};
+}
+
+void add_moduli(Chart& chart, const std::string& name, int colour, const Moduli& moduli) {
     chart.series.push_back({.name = symbol_with(name, "G'"),
-                            .x = x,
-                            .y = storage,
-                            .error = storage_spread,
+                            .x = moduli.x,
+                            .y = moduli.storage,
+                            .error = moduli.storage_spread,
                             .mark = Mark::line_points,
                             .colour = colour});
-    if (std::any_of(loss.begin(), loss.end(), [](double value) { return value > 0; })) {
+    if (std::any_of(moduli.loss.begin(), moduli.loss.end(), [](double value) { return value > 0; })) {
         chart.series.push_back({.name = symbol_with(name, "G''"),
-                                .x = x,
-                                .y = loss,
-                                .error = loss_spread,
+                                .x = moduli.x,
+                                .y = moduli.loss,
+                                .error = moduli.loss_spread,
                                 .mark = Mark::open_line_points,
                                 .colour = colour});
     }
@@ -67,14 +79,15 @@ void add_amplitudes(Chart& chart, const FigureSource& source, const std::string&
     const std::string& group = quasistatic_group;
     if (source.find(group + "amplitude") == nullptr && source.find(dem_group + "oscillations/amplitude") != nullptr) {
         const std::string dem = dem_group + "oscillations/";
-        add_moduli(chart, name, colour, mean_of_runs(source, dem + "amplitude"), mean_of_runs(source, dem + "storage_modulus"), {},
-                   mean_of_runs(source, dem + "loss_modulus"), {});
+        add_moduli(chart, name, colour,
+                   {mean_of_runs(source, dem + "amplitude"),
+                    mean_of_runs(source, dem + "storage_modulus"),
+                    {},
+                    mean_of_runs(source, dem + "loss_modulus"),
+                    {}});
         return;
     }
-    const std::vector<double> amplitude = source.numbers(group + "amplitude");
-    add_moduli(chart, name, colour, amplitude, source.numbers(group + "storage_modulus/mean"),
-               source.numbers(group + "storage_modulus/std"), source.numbers(group + "loss_modulus/mean"),
-               source.numbers(group + "loss_modulus/std"));
+    add_moduli(chart, name, colour, moduli_over(source, group + "amplitude", group));
 }
 
 /// Orientations of the ramps of a file, such as "zx". @param usual is returned, so that its absence is told, where there are none.
@@ -116,10 +129,8 @@ Drawing draw_frequency_response(const Sources& sources) {
                 .legend = Legend::bottom_right};
     for (std::size_t k = 0; k < sources.size(); ++k) {
         const FigureSource& source = sources[k];
-        add_moduli(chart, legend_name(sources, k), static_cast<int>(k), source.numbers(frequency_group + "frequency"),
-                   source.numbers(frequency_group + "storage_modulus/mean"),
-                   source.numbers(frequency_group + "storage_modulus/std"), source.numbers(frequency_group + "loss_modulus/mean"),
-                   source.numbers(frequency_group + "loss_modulus/std"));
+        add_moduli(chart, legend_name(sources, k), static_cast<int>(k),
+                   moduli_over(source, frequency_group + "frequency", frequency_group));
     }
     return {.panels = {chart},
             .caption =

@@ -25,7 +25,7 @@ struct Format {
 
 template <io::TextFormat format>
 void write_as(const std::string& path, const io::Structure& structure, bool overwrite) {
-    io::write_text(path, format, structure.packing, structure.bonds, overwrite, structure.earlier, structure.time);
+    io::write_text(path, format, structure, overwrite);
 }
 
 const std::array formats = {Format{"extxyz", {".extxyz", ".xyz"}, write_as<io::TextFormat::extended_xyz>},
@@ -88,8 +88,7 @@ Printed export_file(const Arguments& arguments) {
     const bool force = arguments.flag("force");
     check_output(arguments, output);
     if (arguments.flag("dump-units")) {
-        io::write_text(output, io::TextFormat::lammps_dump, structure.packing, structure.bonds, force, structure.earlier,
-                       structure.time, true);
+        io::write_text(output, io::TextFormat::lammps_dump, structure, force, true);
     } else {
         format.write(output, structure, force);
     }

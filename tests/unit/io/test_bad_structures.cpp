@@ -101,7 +101,7 @@ TEST_F(BadStructure, TruncatedAtAnyPlace) {
         EXPECT_TRUE(said == path + " is truncated or damaged" || said == path + " is not an HDF5 file") << said;
         EXPECT_THROW(read_results(path, "/"), InputError);
         EXPECT_THROW(read_provenance(path), InputError);
-        EXPECT_THROW(add_results(path, file("b.h5"), {}, std::nullopt, {}, {}, {}, false), InputError);
+        EXPECT_THROW(add_results(path, file("b.h5"), {{}, std::nullopt, {}, {}, {}}, false), InputError);
     }
     EXPECT_FALSE(std::filesystem::exists(file("b.h5")));
 }
@@ -287,7 +287,7 @@ TEST_F(BadStructure, ReadsOtherProgramsAndTheLastFrame) {
     EXPECT_TRUE(found.radii.isApprox(Eigen::Vector2d(3, 4) * 1e-10, 1e-15));
     EXPECT_TRUE(found.cell.lengths().isApprox(Eigen::Vector3d(20, 30, 40) * 1e-10, 1e-15));
     EXPECT_TRUE(found.cell.is_periodic());
-    add_results(path_, file("b.h5"), {}, find_contacts(found, 0.5), {}, {}, {}, false);
+    add_results(path_, file("b.h5"), {{}, find_contacts(found, 0.5), {}, {}, {}}, false);
     EXPECT_TRUE(read_structure(file("b.h5")).bonds);
 }
 

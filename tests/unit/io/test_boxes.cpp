@@ -56,7 +56,7 @@ TEST_F(Boxes, ComeBackFromEveryFormat) {
         const Packing packing = tilted_packing(periodic);
         for (const char* name : {"a.xyz", "a.lmp", "a.dump"}) {
             const TextFormat format = format_from_name(name);
-            write_text(file(name), format, packing, std::nullopt, true);
+            write_text(file(name), format, {packing, std::nullopt}, true);
             expect_same(read_text(file(name), format, in_metres()), packing, 1e-14, name);
         }
         const Structure structure{packing, std::nullopt, {}, 0.0};
@@ -73,10 +73,10 @@ TEST_F(Boxes, OfAnyOrientationStandInExtendedXyzOnly) {
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
     packing.positions = turn * packing.positions;
     packing.cell = Cell::of_edges(Eigen::Vector3d::Zero(), turn * packing.cell.edges(), packing.cell.periodicity());
-    write_text(file("a.xyz"), TextFormat::extended_xyz, packing, std::nullopt, true);
+    write_text(file("a.xyz"), TextFormat::extended_xyz, {packing, std::nullopt}, true);
     expect_same(read_text(file("a.xyz"), TextFormat::extended_xyz, {}), packing, 1e-14, "extended XYZ");
     for (const char* name : {"a.lmp", "a.dump"}) {
-        EXPECT_THROW(write_text(file(name), format_from_name(name), packing, std::nullopt, true), InputError);
+        EXPECT_THROW(write_text(file(name), format_from_name(name), {packing, std::nullopt}, true), InputError);
     }
     EXPECT_THROW(write_gsd(file("a.gsd"), {packing, std::nullopt, {}, 0.0}, true), InputError);
     EXPECT_EQ(entries().size(), 1U);

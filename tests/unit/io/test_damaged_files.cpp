@@ -44,7 +44,7 @@ protected:
         return said;
     }
 
-    void add_to_copy() const { add_results(path_, file("b.h5"), {}, std::nullopt, {}, {}, stage("shear"), true); }
+    void add_to_copy() const { add_results(path_, file("b.h5"), {{}, std::nullopt, {}, {}, stage("shear")}, true); }
 
     std::string path_;
 };
@@ -154,7 +154,7 @@ TEST_F(DamagedFile, NothingIsPrinted) {
 
 /// One byte replaced by another one, at places and by values that a fixed seed gives. Whatever it meets, the process survives.
 TEST_F(DamagedFile, SingleBytes) {
-    add_results(path_, path_, {}, std::nullopt, {}, {}, stage("again"), false);
+    add_results(path_, path_, {{}, std::nullopt, {}, {}, stage("again")}, false);
     const std::string whole = read(path_);
     std::mt19937 random(20121);
     int refused = 0;

@@ -34,7 +34,7 @@ Provenance stage(const std::string& name) {
 }
 
 void add(const std::string& path, const std::string& name) {
-    add_results(path, path, {}, std::nullopt, {}, {scalar("/mechanics/" + name, 1, "1", "a result")}, stage(name), false);
+    add_results(path, path, {{}, std::nullopt, {}, {scalar("/mechanics/" + name, 1, "1", "a result")}, stage(name)}, false);
 }
 
 /// Runs `work` in processes of their own, all at once; their exit codes. No work may start threads, which a forked process cannot.
@@ -96,9 +96,10 @@ TEST_F(OutputFiles, ResultsOfAPackingThatWasReplacedAreRefused) {
     const std::string other = positions_sha256(example_packing(31, true));
     Provenance provenance = stage("shear");
     provenance.positions_sha256 = other;
-    EXPECT_EQ(
-        sentence<std::runtime_error>([&] { add_results(file("a.h5"), file("a.h5"), {}, std::nullopt, {}, {}, provenance, false); }),
-        file("a.h5") + " holds another packing than when this run began; its results are not written");
+    EXPECT_EQ(sentence<std::runtime_error>([&] {
+                  add_results(file("a.h5"), file("a.h5"), {{}, std::nullopt, {}, {}, provenance}, false);
+              }),
+              file("a.h5") + " holds another packing than when this run began; its results are not written");
     EXPECT_EQ(read(file("a.h5")), before);
 }
 

@@ -133,10 +133,13 @@ TEST_F(StructureFile, AddResultsReplacesGroupsAndKeepsTheRest) {
     const ContactNetwork bonds = find_contacts(packing, 0.1);
     write_structure(file("a.h5"), {packing, std::nullopt}, {}, example_results(), example_provenance("generate vem"), false);
     const std::string sha = positions_sha256(packing);
-    add_results(file("a.h5"), file("a.h5"), {"/characterization/doh"}, bonds,
-                {{"order", packing.radii.transpose(), "m", "a field"}},
-                {scalar("/characterization/doh/b", 0.5, "1", "shift"), scalar("/diagnosis/x", 1, "1", "new")},
-                example_provenance("shear/linear"), false);
+    add_results(file("a.h5"), file("a.h5"),
+                {{"/characterization/doh"},
+                 bonds,
+                 {{"order", packing.radii.transpose(), "m", "a field"}},
+                 {scalar("/characterization/doh/b", 0.5, "1", "shift"), scalar("/diagnosis/x", 1, "1", "new")},
+                 example_provenance("shear/linear")},
+                false);
     const auto found = read_results(file("a.h5"), "/characterization");
     EXPECT_EQ(std::count_if(found.begin(), found.end(), [](const auto& d) { return d.path.starts_with("/characterization/doh"); }),
               1);
@@ -159,8 +162,8 @@ TEST_F(StructureFile, AddResultsToAnotherFileLeavesTheSource) {
     write_structure(file("a.h5"), {example_packing(9, false), std::nullopt}, {}, {}, example_provenance("import"), false);
     const std::string before = read(file("a.h5"));
     const auto add = [&](bool overwrite) {
-        add_results(file("a.h5"), file("b.h5"), {}, std::nullopt, {}, {scalar("/mechanics/x", 1, "1", "new")},
-                    example_provenance("shear"), overwrite);
+        add_results(file("a.h5"), file("b.h5"),
+                    {{}, std::nullopt, {}, {scalar("/mechanics/x", 1, "1", "new")}, example_provenance("shear")}, overwrite);
     };
     add(false);
     EXPECT_EQ(read(file("a.h5")), before);
@@ -189,7 +192,7 @@ TEST_F(StructureFile, AddResultsKeepsWhatItDoesNotKnow) {
         H5Fclose(id);
     }
     for (int turn = 0; turn < 2; ++turn) {
-        add_results(file("a.h5"), file("a.h5"), {}, std::nullopt, {}, {}, example_provenance("shear"), false);
+        add_results(file("a.h5"), file("a.h5"), {{}, std::nullopt, {}, {}, example_provenance("shear")}, false);
     }
     const hid_t id = H5Fopen(file("a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
     int value = 0;
@@ -225,7 +228,8 @@ TEST_F(StructureFile, ProvenanceIsAHistory) {
     first.positions_sha256 = "abc";
     write_structure(file("a.h5"), {example_packing(3, true), std::nullopt}, {}, {}, first, false);
     for (int i = 0; i < 11; ++i) {
-        add_results(file("a.h5"), file("a.h5"), {}, std::nullopt, {}, {}, example_provenance("stage " + std::to_string(i)), false);
+        add_results(file("a.h5"), file("a.h5"), {{}, std::nullopt, {}, {}, example_provenance("stage " + std::to_string(i))},
+                    false);
     }
     const auto history = read_provenance(file("a.h5"));
     ASSERT_EQ(history.size(), 12U);
@@ -245,12 +249,12 @@ TEST_F(StructureFile, EqualInputGivesEqualBytes) {
     for (const char* name : {"a.h5", "b.h5"}) {
         write_structure(file(name), {packing, find_contacts(packing, 0.1)}, {{"radii", packing.radii.transpose(), "m", ""}},
                         example_results(), example_provenance("generate"), false);
-        add_results(file(name), file(name), {}, std::nullopt, {}, example_results(), example_provenance("again"), false);
+        add_results(file(name), file(name), {{}, std::nullopt, {}, example_results(), example_provenance("again")}, false);
     }
     EXPECT_EQ(read(file("a.h5")), read(file("b.h5")));
     const std::size_t once = read(file("a.h5")).size();
-    add_results(file("a.h5"), file("a.h5"), {"/characterization"}, std::nullopt, {}, example_results(), example_provenance("more"),
-                false);
+    add_results(file("a.h5"), file("a.h5"),
+                {{"/characterization"}, std::nullopt, {}, example_results(), example_provenance("more")}, false);
     EXPECT_LT(read(file("a.h5")).size(), once + 30000) << "replaced groups must not leave their space behind";
 }
 
@@ -310,7 +314,7 @@ TEST_F(StructureFile, FullDiskLeavesTheOldFileAndNothingElse) {
         EXPECT_EQ(sentence<std::runtime_error>(
                       [&] { write_structure(file("a.h5"), structure, {}, {}, example_provenance("generate"), true); }),
                   "cannot write " + file("a.h5") + ": File too large");
-        EXPECT_THROW(add_results(file("a.h5"), file("a.h5"), {}, std::nullopt, {}, {}, example_provenance("shear"), false),
+        EXPECT_THROW(add_results(file("a.h5"), file("a.h5"), {{}, std::nullopt, {}, {}, example_provenance("shear")}, false),
                      std::runtime_error);
         EXPECT_THROW(write_structure(file("new.h5"), structure, {}, {}, example_provenance("generate"), true), std::runtime_error);
     }

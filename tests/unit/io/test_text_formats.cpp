@@ -40,7 +40,7 @@ TEST_F(TextFormats, RoundTripIsExact) {
         for (const char* name : {"a.csv", "a.xyz", "a.lmp"}) {
             const Packing packing = example_packing(200, periodic);
             const TextFormat format = format_from_name(name);
-            write_text(file(name), format, packing, find_contacts(packing, 0.1), true);
+            write_text(file(name), format, {packing, find_contacts(packing, 0.1)}, true);
             ImportOptions options;
             if (format == TextFormat::csv) {
                 options.open = !periodic;
@@ -61,7 +61,7 @@ TEST_F(TextFormats, RoundTripIsExact) {
 
 TEST_F(TextFormats, WritersKeepOldFiles) {
     write("a.csv", "old");
-    EXPECT_THROW(write_text(file("a.csv"), TextFormat::csv, example_packing(3, true), std::nullopt, false), InputError);
+    EXPECT_THROW(write_text(file("a.csv"), TextFormat::csv, {example_packing(3, true), std::nullopt}, false), InputError);
     EXPECT_EQ(read(file("a.csv")), "old");
 }
 

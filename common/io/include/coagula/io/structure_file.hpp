@@ -88,18 +88,15 @@ struct Contents {
 /// read_structure, read_results and read_provenance at the cost of one of them.
 Contents read_contents(const std::string& path);
 
-/// Copies `source` to `target` (may be the same file) with the groups in `replaced` removed, then adds bonds (if given), fields,
-/// results and a provenance entry; by temporary file and rename. What coagula does not know in the source is kept.
+/// Copies `source` to `target` (may be the same file) without the groups that are replaced, then adds what is new and a provenance
+/// entry; by temporary file and rename. What coagula does not know in the source is kept.
 /// With target != source an existing target needs `overwrite`; with target == source so do results that were found under other
-/// conditions (check_conditions). `bond_fields` belong to `bonds`.
+/// conditions (check_conditions).
 ///
-/// Several processes may add to one file: each waits for the one before and adds to what it wrote. When `provenance` names the
+/// Several processes may add to one file: each waits for the one before and adds to what it wrote. When the provenance names the
 /// positions that went in and `source` no longer holds them, std::runtime_error says so. Results below /mechanics that were found
-/// with other bonds than `bonds` keep theirs in a group "connectivity" of their own.
-void add_results(const std::string& source, const std::string& target, const std::vector<std::string>& replaced,
-                 const std::optional<ContactNetwork>& bonds, const std::vector<ParticleField>& fields,
-                 const std::vector<Dataset>& results, const Provenance& provenance, bool overwrite,
-                 const std::vector<BondField>& bond_fields = {});
+/// with other bonds than those added keep theirs in a group "connectivity" of their own.
+void add_results(const std::string& source, const std::string& target, const Addition& added, bool overwrite);
 
 /// Throws InputError when `source` is damaged in such a way that add_results could not copy it. Asking before long work saves it.
 void check_source(const std::string& source);

@@ -64,9 +64,7 @@ Packing read_text(const std::string& path, TextFormat format, const ImportOption
 /// Writes a packing (and the bonds, where the format has them: LAMMPS data) through a temporary file and a rename.
 /// CSV carries units in the header (m); extended XYZ is in m with a comment; LAMMPS data is in SI units, atom_style hybrid sphere
 /// bond (or sphere); LAMMPS dump is in SI units, which it names, with the times, by `dump_units` only: not all programs that read
-/// dumps know these lines. Frames of `earlier` come first, with `time` that of the packing; LAMMPS data cannot hold them
-/// (InputError).
-void write_text(const std::string& path, TextFormat format, const Packing& packing, const std::optional<ContactNetwork>& bonds,
-                bool overwrite, const std::vector<Frame>& earlier = {}, double time = 0, bool dump_units = false);
+/// dumps know these lines. Earlier frames come first; LAMMPS data cannot hold them (InputError).
+void write_text(const std::string& path, TextFormat format, const Structure& structure, bool overwrite, bool dump_units = false);
 
 }  // namespace coagula::io
