@@ -322,18 +322,18 @@ Eigen::VectorXd Forward::seen(const Model& model, const Eigen::VectorXcd& moduli
 
 Eigen::VectorXd Forward::predict(const Model& model, bool exact) const {
     const Settings settings = model.simulated();
-    if (exact && change_of(settings) != StructureChange{}) {
+    if (exact && settings.structures != StructureChange{}) {
         Model stated(as_stated(settings));
         std::copy_if(model.acting.begin(), model.acting.end(), std::back_inserter(stated.acting),
                      [](const ActingMechanism& one) { return !std::holds_alternative<ChangesSimulation>(one.mechanism->effect); });
-        return Forward(experiment_, observations_, simulator_.remade(change_of(settings))).predict(stated, true);
+        return Forward(experiment_, observations_, simulator_.remade(settings.structures)).predict(stated, true);
     }
     return smooth_ ? predict(model, smooth_->start()) : seen(model, remembered_material(model, exact).mean, exact);
 }
 
 /// Errors that all rows share, of structures as the model has them.
 const Eigen::MatrixXd& Forward::shared_errors_of(const Model& model) const {
-    const StructureChange change = change_of(model.simulated());
+    const StructureChange change = model.simulated().structures;
     if (change != shared_change_) {
         const Eigen::MatrixXd pores = errors_of_pores(experiment_, observations_, simulator_, change);
         shared_.rightCols(pores.cols()) = pores;

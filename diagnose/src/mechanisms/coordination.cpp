@@ -24,7 +24,7 @@ Mechanism coordination() {
                 "All moduli are higher or lower by one factor.",
             .kind = {Link::structure, Axis::coordination},
             .parameters = {{"coordination", "1", 4.3, 5.1, false}},
-            .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.coordination = values[0]; }},
+            .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.structures.coordination = values[0]; }},
             .applies = can_be_aimed_at};
 }
 

@@ -25,7 +25,7 @@ Mechanism heterogeneity() {
                 "equal coordination.",
             .kind = {Link::structure, Axis::heterogeneity},
             .parameters = {{"voids_per_particle", "1", 0.125, 1, true}},
-            .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.voids = values[0]; }},
+            .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.structures.voids = values[0]; }},
             .applies = can_have_other_voids};
 }
 

@@ -12,7 +12,7 @@ Mechanism polydispersity() {
                 "does not.",
             .kind = {Link::structure, Axis::distance},
             .parameters = {{"relative_size_deviation", "1", 0.02, 0.4, true}},
-            .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.size_deviation = values[0]; }},
+            .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.structures.size_deviation = values[0]; }},
             .applies = [](const Knows& knows) { return knows.recipe; }};
 }
 

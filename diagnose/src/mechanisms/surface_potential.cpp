@@ -20,17 +20,18 @@ bool coagulates(const Knows& knows) {
 
 /// Only structures that coagulate by a recipe can coagulate again.
 Mechanism surface_potential() {
-    return {.name = "surface-potential",
-            .term =
-                "the particles coagulated at another surface potential, with a higher or lower energy barrier between "
-                "them",
-            .signature =
-                "Behind a barrier of some kT, structures of equal coordination are more heterogeneous: their pores "
-                "are larger, and more neighbours lie within two diameters.",
-            .kind = {Link::structure, Axis::heterogeneity},
-            .parameters = {{"surface_potential", "V", 0, highest_potential, false}},
-            .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.coagulation_potential = values[0]; }},
-            .applies = coagulates};
+    return {
+        .name = "surface-potential",
+        .term =
+            "the particles coagulated at another surface potential, with a higher or lower energy barrier between "
+            "them",
+        .signature =
+            "Behind a barrier of some kT, structures of equal coordination are more heterogeneous: their pores "
+            "are larger, and more neighbours lie within two diameters.",
+        .kind = {Link::structure, Axis::heterogeneity},
+        .parameters = {{"surface_potential", "V", 0, highest_potential, false}},
+        .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.structures.surface_potential = values[0]; }},
+        .applies = coagulates};
 }
 
 }  // namespace coagula::diagnose::mechanisms

@@ -20,17 +20,18 @@ bool can_be_diluted(const Knows& knows) {
 
 /// A sample that lost solvent when it was filled, or particles when it was weighed.
 Mechanism volume_fraction() {
-    return {.name = "volume-fraction",
-            .term =
-                "the volume fraction of the sample differs from the stated one; the simulated structures are "
-                "generated with that of the sample",
-            .signature =
-                "The pores and the number of neighbours at all distances follow the volume fraction, while the "
-                "contacts do not. All moduli are higher or lower by one factor.",
-            .kind = {Link::structure, Axis::volume_fraction},
-            .parameters = {{"volume_fraction_over_stated", "1", 0.85, 1.15, false}},
-            .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.volume_fraction_change = values[0] - 1; }},
-            .applies = can_be_diluted};
+    return {
+        .name = "volume-fraction",
+        .term =
+            "the volume fraction of the sample differs from the stated one; the simulated structures are "
+            "generated with that of the sample",
+        .signature =
+            "The pores and the number of neighbours at all distances follow the volume fraction, while the "
+            "contacts do not. All moduli are higher or lower by one factor.",
+        .kind = {Link::structure, Axis::volume_fraction},
+        .parameters = {{"volume_fraction_over_stated", "1", 0.85, 1.15, false}},
+        .effect = ChangesSimulation{[](Settings& settings, Values values) { settings.structures.volume_fraction = values[0] - 1; }},
+        .applies = can_be_diluted};
 }
 
 }  // namespace coagula::diagnose::mechanisms

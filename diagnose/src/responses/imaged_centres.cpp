@@ -82,8 +82,9 @@ std::array<double, 3> repeated_images(Simulator& simulator, const Settings& sett
 }
 
 double neighbours(Simulator& simulator, const Settings& settings, std::size_t shell, bool exact) {
-    if (const StructureChange change = change_of(settings); change != StructureChange{}) {
-        return over_changes(simulator, change, [&](Simulator& other) { return neighbours(other, as_stated(settings), shell); });
+    if (settings.structures != StructureChange{}) {
+        return over_changes(simulator, settings.structures,
+                            [&](Simulator& other) { return neighbours(other, as_stated(settings), shell); });
     }
     const double plane = settings.localisation_plane / (2 * simulator.radius());
     const double axis = settings.localisation_axis / (2 * simulator.radius());

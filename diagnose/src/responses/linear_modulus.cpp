@@ -60,8 +60,9 @@ double exact_linear_modulus(Simulator& simulator, const Settings& settings, std:
 }
 
 double linear_modulus(Simulator& simulator, const Settings& settings, std::size_t group) {
-    if (const StructureChange change = change_of(settings); change != StructureChange{}) {
-        return over_changes(simulator, change, [&](Simulator& other) { return linear_modulus(other, as_stated(settings), group); });
+    if (settings.structures != StructureChange{}) {
+        return over_changes(simulator, settings.structures,
+                            [&](Simulator& other) { return linear_modulus(other, as_stated(settings), group); });
     }
     const double modulus = between_nodes(settings, [&](const Settings& node) { return mean_modulus(simulator, node, group); });
     return settings.normal_stiffness / unit_stiffness * modulus;

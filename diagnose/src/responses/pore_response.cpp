@@ -111,7 +111,7 @@ Eigen::MatrixXd mean_covariance(Simulator& simulator) {
 }  // namespace
 
 double exclusion_probability(Simulator& simulator, const Settings& settings, double pore_radius, bool exact) {
-    const double changed = over_changes(simulator, change_of(settings),
+    const double changed = over_changes(simulator, settings.structures,
                                         [&](Simulator& other) { return mean_exclusion_probability(other, pore_radius); });
     const double images =
         change_in_images(simulator, settings, pore_radius, mean_exclusion_probability(simulator, pore_radius), exact);

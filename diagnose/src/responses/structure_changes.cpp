@@ -4,8 +4,6 @@
 
 #include "interpolation.hpp"
 
-#include <cmath>
-
 namespace coagula::diagnose {
 
 namespace {
@@ -24,27 +22,20 @@ Value asked_over_changes(Simulator& simulator, const StructureChange& change, co
     const Value stated = asked(simulator);
     Value value = stated;
     const auto add = [&](const auto& axis, double StructureChange::*changed) {
+        if (change.*changed == StructureChange{}.*changed) {
+            return;
+        }
         value -= stated - interpolate_nodes(axis, change.*changed, [&](int k) {
                      StructureChange node;
                      node.*changed = axis.node(k);
                      return asked(simulator.remade(node));
                  });
     };
-    if (change.size_deviation > 0) {
-        add(size_axis, &StructureChange::size_deviation);
-    }
-    if (std::isfinite(change.surface_potential)) {
-        add(potential_axis, &StructureChange::surface_potential);
-    }
-    if (change.volume_fraction != 0) {
-        add(fraction_axis, &StructureChange::volume_fraction);
-    }
-    if (std::isfinite(change.coordination)) {
-        add(coordination_axis, &StructureChange::coordination);
-    }
-    if (std::isfinite(change.voids)) {
-        add(voids_axis, &StructureChange::voids);
-    }
+    add(size_axis, &StructureChange::size_deviation);
+    add(potential_axis, &StructureChange::surface_potential);
+    add(fraction_axis, &StructureChange::volume_fraction);
+    add(coordination_axis, &StructureChange::coordination);
+    add(voids_axis, &StructureChange::voids);
     return value;
 }
 

@@ -7,20 +7,8 @@
 
 namespace coagula::diagnose {
 
-StructureChange change_of(const Settings& settings) {
-    return {.size_deviation = settings.size_deviation,
-            .surface_potential = settings.coagulation_potential,
-            .volume_fraction = settings.volume_fraction_change,
-            .coordination = settings.coordination,
-            .voids = settings.voids};
-}
-
 Settings as_stated(Settings settings) {
-    settings.size_deviation = Settings{}.size_deviation;
-    settings.coagulation_potential = Settings{}.coagulation_potential;
-    settings.volume_fraction_change = Settings{}.volume_fraction_change;
-    settings.coordination = Settings{}.coordination;
-    settings.voids = Settings{}.voids;
+    settings.structures = {};
     return settings;
 }
 

@@ -159,7 +159,7 @@ Diagnosed diagnosed(const DiagnoseRun& run, const std::vector<std::filesystem::p
     const diagnose::Cause* best = cause_to_extend_by(diagnosis);
     std::vector<std::string> calls;
     if (best != nullptr) {
-        calls = remaking_calls(experiment, diagnose::change_of(best->model.simulated()));
+        calls = remaking_calls(experiment, best->model.simulated().structures);
     }
     return {std::move(checked), radius, std::move(sentences), std::move(diagnosis), std::move(contact), std::move(calls)};
 }

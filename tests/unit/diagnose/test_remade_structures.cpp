@@ -13,7 +13,7 @@ using generators::SizeKind;
 
 Settings with_sizes(double deviation) {
     Settings settings;
-    settings.size_deviation = deviation;
+    settings.structures.size_deviation = deviation;
     return settings;
 }
 

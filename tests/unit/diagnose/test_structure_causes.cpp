@@ -31,7 +31,7 @@ bool applies(const std::string& cause, const Experiment& experiment) {
 
 TEST(StructureChanges, NoneIsTheStructureAsItIs) {
     Settings none;
-    none.volume_fraction_change = 0;
+    none.structures.volume_fraction = 0;
     Recipe fresh;
     EXPECT_EQ(&fresh.simulator.remade({}), &fresh.simulator);
     EXPECT_EQ(neighbours(fresh.simulator, none, any_shell), neighbours(fresh.simulator, Settings{}, any_shell));
@@ -47,14 +47,14 @@ double scatter_of_difference(double neighbours) {
 /// Between the nodes as close to structures that are made so as two pairs of these are to each other, in each shell and in all.
 TEST(StructureChanges, BetweenTheNodesStructuresAreMet) {
     Settings dense;
-    dense.volume_fraction_change = 0.11;
+    dense.structures.volume_fraction = 0.11;
     Settings connected;
-    connected.coordination = 4.8;
+    connected.structures.coordination = 4.8;
     Settings fewer_voids;
-    fewer_voids.voids = 0.2;
+    fewer_voids.structures.voids = 0.2;
     for (const Settings& settings : {dense, connected, fewer_voids}) {
-        const std::string name = name_of(change_of(settings));
-        Simulator& exact = recipe().simulator.remade(change_of(settings));
+        const std::string name = name_of(settings.structures);
+        Simulator& exact = recipe().simulator.remade(settings.structures);
         double all_counted = 0;
         double all_predicted = 0;
         for (std::size_t shell = 2; shell < 16; ++shell) {
@@ -71,7 +71,7 @@ TEST(StructureChanges, BetweenTheNodesStructuresAreMet) {
 /// As many neighbours touch as the coordination says, and the modulus follows.
 TEST(StructureChanges, ContactsFollowTheCoordination) {
     Settings connected;
-    connected.coordination = 5.1;
+    connected.structures.coordination = 5.1;
     constexpr std::size_t contact_shell = 4;  // 0.95 to 1.05 diameters
     const double touching = neighbours_in(recipe().simulator, Settings{}, contact_shell);
     EXPECT_NEAR(neighbours_in(recipe().simulator, connected, contact_shell) - touching, 5.1 - 4.69, 0.25);
@@ -81,7 +81,7 @@ TEST(StructureChanges, ContactsFollowTheCoordination) {
 /// Fewer voids, larger pores.
 TEST(StructureChanges, PoresFollowTheVoids) {
     Settings few;
-    few.voids = 0.125;
+    few.structures.voids = 0.125;
     EXPECT_GT(exclusion_probability(recipe().simulator, few, 0.25e-6),
               1.5 * exclusion_probability(recipe().simulator, Settings{}, 0.25e-6));
 }
@@ -201,7 +201,7 @@ TEST(StructureCauses, ALevelAloneIsNeverOneOfThem) {
                       .columns = {{"frequency", "Hz", {}}},
                       .left_out = {}};
     Settings connected;
-    connected.coordination = 5.1;
+    connected.structures.coordination = 5.1;
     std::vector<std::complex<double>> moduli;
     for (int k = 0; k < 8; ++k) {
         sweep.columns[0].values.push_back(0.1 * std::pow(2, k));

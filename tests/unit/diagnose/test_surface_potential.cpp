@@ -72,7 +72,7 @@ Experiment experiment_with(const std::vector<Measurement>& tables) {
 
 Settings at(double surface_potential) {
     Settings settings;
-    settings.coagulation_potential = surface_potential;
+    settings.structures.surface_potential = surface_potential;
     return settings;
 }
 

@@ -4,9 +4,22 @@
 
 #include <coagula/common/contact_model.hpp>
 
+#include <compare>
 #include <limits>
 
 namespace coagula::diagnose {
+
+/// Changes of the recipe of the experiment with which structures are made again.
+struct StructureChange {
+    double size_deviation = 0;  ///< standard deviation of the radii over their mean, of lognormal sizes
+    double surface_potential = std::numeric_limits<double>::infinity();  ///< of coagulation [V]; infinite: as the recipe says
+    double volume_fraction = 0;                                          ///< relative change of that of the sample
+    double coordination = std::numeric_limits<double>::infinity();       ///< aimed at; infinite: as the recipe says
+    double voids = std::numeric_limits<double>::infinity();              ///< per particle; infinite: as the recipe says
+
+    // NOLINTNEXTLINE(modernize-use-nullptr): clang 14 takes the zero of a defaulted comparison for a pointer
+    auto operator<=>(const StructureChange&) const = default;
+};
 
 /// One state of the simulation. The defaults are the base model of Schenker et al. 2012: linear normal and shear springs, bonds
 /// without moments, no loss.
@@ -41,12 +54,7 @@ struct Settings {
     double missed_share = 0;        ///< of the particles
     double false_share = 0;         ///< of the centres: points where no particle is
 
-    double size_deviation = 0;  ///< standard deviation of the radii over their mean
-    double coagulation_potential =
-        std::numeric_limits<double>::infinity();  ///< surface potential of the coagulation [V]; infinite: as the recipe says
-    double volume_fraction_change = 0;            ///< of the structures, relative to that of the sample
-    double coordination = std::numeric_limits<double>::infinity();  ///< that the recipe aims at; infinite: as it says
-    double voids = std::numeric_limits<double>::infinity();         ///< per particle, of a recipe; infinite: as it says
+    StructureChange structures = {};  ///< none: as they are
 
     bool operator==(const Settings&) const = default;
 };

@@ -7,27 +7,13 @@
 
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace coagula::diagnose {
 
-/// Changes of the recipe of the experiment with which structures are made again.
-struct StructureChange {
-    double size_deviation = 0;  ///< standard deviation of the radii over their mean, of lognormal sizes
-    double surface_potential = std::numeric_limits<double>::infinity();  ///< of coagulation [V]; infinite: as the recipe says
-    double volume_fraction = 0;                                          ///< relative change of that of the sample
-    double coordination = std::numeric_limits<double>::infinity();       ///< aimed at; infinite: as the recipe says
-    double voids = std::numeric_limits<double>::infinity();              ///< per particle; infinite: as the recipe says
-
-    // NOLINTNEXTLINE(modernize-use-nullptr): clang 14 takes the zero of a defaulted comparison for a pointer
-    auto operator<=>(const StructureChange&) const = default;
-};
-
-/// The part of settings that needs other structures, and settings without it.
-StructureChange change_of(const Settings& settings);
+/// Settings with the structures as they are.
 Settings as_stated(Settings settings);
 
 /// Probability that a point of the void space is farther than r from the nearest particle surface, at equally spaced r.
