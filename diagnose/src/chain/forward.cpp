@@ -2,6 +2,7 @@
 #include "forward.hpp"
 
 #include "data/median.hpp"
+#include "responses/fundamental.hpp"
 #include "responses/imaged_centres.hpp"
 #include "responses/pore_response.hpp"
 #include "shared_errors.hpp"
@@ -71,8 +72,10 @@ std::vector<std::size_t> first_of_frequencies(const std::vector<Observation>& ob
 /// Selects the mechanisms that change the material.
 std::vector<ActingMechanism> acting_on_material(const Model& model) {
     std::vector<ActingMechanism> some;
-    std::copy_if(model.acting.begin(), model.acting.end(), std::back_inserter(some),
-                 [](const ActingMechanism& one) { return std::holds_alternative<ScalesMaterial>(one.mechanism->effect); });
+    std::copy_if(model.acting.begin(), model.acting.end(), std::back_inserter(some), [](const ActingMechanism& one) {
+        return std::holds_alternative<ScalesMaterial>(one.mechanism->effect) ||
+               std::holds_alternative<BendsStress>(one.mechanism->effect);
+    });
     return some;
 }
 
@@ -177,6 +180,11 @@ void Forward::scale(UncertainModuli& moduli, const Model& model, bool exact) con
         } else if (is_modulus_or_viscosity(observations_[k])) {
             model.for_each<ScalesMaterial>(
                 [&](const ScalesMaterial& effect, Values values) { factor *= effect.factor(observations_[k], values, sample); });
+            if (const double amplitude = observations_[k].strain; std::isfinite(amplitude)) {
+                model.for_each<BendsStress>([&](const BendsStress& effect, Values values) {
+                    factor *= fundamental(amplitude, [&](double strain) { return effect.secant(strain, values); });
+                });
+            }
         }
     }
     moduli.mean.array() *= factors.array();
@@ -209,7 +217,7 @@ UncertainModuli Forward::network(const Model& model, bool exact) const {
         if (const std::size_t first = first_of_row_[k]; first < k) {
             modulus = moduli[static_cast<Index>(first)];
         } else if (is<Harmonic>(observation)) {
-            modulus = third_harmonic(settings, observation, bonds[k]);
+            modulus = third_harmonic(model, settings, observation, bonds[k]);
         } else if (shows_network(observation)) {
             const Conditions here = conditions_of(observation);
             const auto [found, added] = linear.try_emplace(here.group, 0.0);

@@ -89,7 +89,8 @@ private:
     Eigen::VectorXcd breaking_response(const Settings& settings, const Observation& observation, const BondStrain& strain) const;
     std::vector<Yielded> exact_breaking_response(const Settings& settings, const Observation& observation,
                                                  const std::vector<double>& amplitudes) const;
-    std::complex<double> third_harmonic(const Settings& given, const Observation& observation, const BondStrain& bonds) const;
+    std::complex<double> third_harmonic(const Model& model, const Settings& given, const Observation& observation,
+                                        const BondStrain& bonds) const;
     std::array<double, 4> storage_while_breaking(const Settings& settings, const Observation& observation, const BondStrain& strain,
                                                  double sine) const;
     std::vector<double> strains_before(std::size_t table, const std::vector<double>& strains) const;

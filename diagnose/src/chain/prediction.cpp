@@ -2,7 +2,6 @@
 // What the instrument shows, with how it changes with the errors of the prediction.
 #include "forward.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <utility>
@@ -69,10 +68,7 @@ Prediction Forward::change_by_stiffness(const Model& model, const Prediction& he
 
 /// Whether the instrument shows the material as it is.
 bool Forward::shows_in_proportion(const Model& model) {
-    return std::none_of(model.acting.begin(), model.acting.end(), [](const ActingMechanism& one) {
-        return std::holds_alternative<ChangesGeometry>(one.mechanism->effect) ||
-               std::holds_alternative<ChangesTool>(one.mechanism->effect);
-    });
+    return !model.has<ChangesGeometry>() && !model.has<ChangesTool>();
 }
 
 /// Slope of what the instrument shows by the logarithm of the level of the material. @param values at these moduli of it.

@@ -40,6 +40,13 @@ std::vector<Phases> all_phases() {
     return all;
 }
 
+/// Stress over strain of bonds that hold, at a momentary strain, over that of small strains.
+double secant_of(const Model& model, Simulator& simulator, const Settings& settings, double strain) {
+    double secant = contact_secant(simulator, settings, strain);
+    model.for_each<BendsStress>([&](const BendsStress& effect, Values values) { secant *= effect.secant(strain, values); });
+    return secant;
+}
+
 }  // namespace
 
 /// G' / G in the quarters of an oscillation in which bonds break, between plates as the torque shows it.
@@ -60,19 +67,21 @@ std::array<double, 4> Forward::storage_while_breaking(const Settings& settings, 
     return mean;
 }
 
-/// G3* / |G*| of the material at the strain of an observation: Hertz contacts and breaking bonds make the
+/// G3* / |G*| of the material at the strain of an observation: Hertz contacts, other laws of the stress and breaking bonds make the
 /// secant stiffness change within an oscillation; all else is linear and changes both harmonics alike.
-std::complex<double> Forward::third_harmonic(const Settings& given, const Observation& observation, const BondStrain& bonds) const {
+std::complex<double> Forward::third_harmonic(const Model& model, const Settings& given, const Observation& observation,
+                                             const BondStrain& bonds) const {
     const Settings settings = with_weakest_bonds(given);
     const double strain = observation.strain;
-    if (!std::isfinite(strain) || (settings.contact_preload <= 0 && !std::isfinite(settings.critical_strain))) {
+    const bool bends = settings.contact_preload > 0 || model.has<BendsStress>();
+    if (!std::isfinite(strain) || (!bends && !std::isfinite(settings.critical_strain))) {
         return 0;
     }
     std::complex<double> first = 0;
     std::complex<double> third = 0;
     static const std::vector<Phases> phases = all_phases();
     for (const Phases& phase : phases) {
-        const double secant = phase.sine * contact_secant(simulator_, settings, strain * phase.sine);
+        const double secant = phase.sine * secant_of(model, simulator_, settings, strain * phase.sine);
         const std::array<double, 4> storage = storage_while_breaking(settings, observation, bonds, phase.sine);
         for (std::size_t quarter = 0; quarter < storage.size(); ++quarter) {
             first += secant * storage[quarter] * phase.first[quarter];

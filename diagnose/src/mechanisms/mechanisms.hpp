@@ -29,6 +29,11 @@ inline std::complex<double> power_of_age(const Observation& row, Values values, 
     return std::isfinite(row.age) ? std::pow(1 + row.age / values[1], values[0]) : 1;
 }
 
+/// Whether strains differ, without which what follows the strain is a level that anything can have.
+inline bool strains_differ(const Knows& knows) {
+    return differs(knows.experiment, [](const Measurement& table, std::size_t row) { return cell(table, "strain", row); });
+}
+
 /// A smooth viscosity may grow towards low rates in any way.
 inline bool flows_as_an_oil(const Knows& knows) {
     return knows.flow && knows.experiment.material.kind == MaterialKind::newtonian;

@@ -15,11 +15,6 @@ std::complex<double> softened(const Observation& row, Values values, const Simul
     return std::complex<double>(1, 2 * values[2] * opened) / (1 + opened * opened);
 }
 
-/// At one strain the same law is a share of the modulus and a constant loss, which anything can be.
-bool strains_differ(const Knows& knows) {
-    return differs(knows.experiment, [](const Measurement& table, std::size_t row) { return cell(table, "strain", row); });
-}
-
 }  // namespace
 
 Mechanism reversible_softening() {

@@ -4,20 +4,18 @@
 #include <coagula/common/contact_network.hpp>
 #include <coagula/mechanics/hertz_curve.hpp>
 
+#include "fundamental.hpp"
 #include "hertz_scatter.hpp"
 #include "interpolation.hpp"
 
 #include <cmath>
-#include <numbers>
-#include <type_traits>
 #include <utility>
 
 namespace coagula::diagnose {
 
 namespace {
 
-constexpr double any_preload = 1e-4;   ///< of the contacts; the response depends on the strain over it alone
-constexpr int phases_of_quarter = 24;  ///< of a quarter of an oscillation
+constexpr double any_preload = 1e-4;  ///< of the contacts; the response depends on the strain over it alone
 
 /// Stress over strain of one structure at the nodes.
 const std::vector<double>& secant_moduli(Simulator& simulator, std::size_t structure) {
@@ -66,17 +64,6 @@ double contact_secant(Simulator& simulator, const Settings& settings, double str
 }
 
 namespace {
-
-/// The fundamental of the stress: mean of f(strain) over a quarter of an oscillation with the weights of 4/pi sin^2.
-template <class Function>
-auto fundamental(double amplitude, const Function& f) {
-    std::decay_t<decltype(f(amplitude))> sum = 0 * f(amplitude);
-    for (int k = 0; k < phases_of_quarter; ++k) {
-        const double sine = std::sin(0.5 * std::numbers::pi * (k + 0.5) / phases_of_quarter);
-        sum += 2.0 / phases_of_quarter * sine * sine * f(amplitude * sine);
-    }
-    return sum;
-}
 
 /// Errors of the fundamental at amplitudes of the nodes, relative.
 const HertzScatter& scatter_of_fundamentals(Simulator& simulator) {

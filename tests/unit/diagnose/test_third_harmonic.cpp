@@ -24,14 +24,14 @@ Measurement table_of(MeasurementKind kind, std::vector<Column> columns) {
 }
 
 /// G3* / |G*| of the first oscillations at these strains, one after the other.
-std::vector<Complex> predicted(const Settings& settings, const std::vector<double>& strains, Simulator& structures = simulator()) {
+std::vector<Complex> predicted(const Model& model, const std::vector<double>& strains, Simulator& structures = simulator()) {
     const std::vector<double> zeros(strains.size(), 0.0);
     Experiment experiment;
     experiment.measurements = {
         table_of(MeasurementKind::harmonics,
                  {{"strain", "1", strains}, {"third_harmonic_storage", "1", zeros}, {"third_harmonic_loss", "1", zeros}})};
     const auto rows = observations_of(experiment);
-    const Eigen::VectorXd values = Forward(experiment, rows, structures).predict(settings);
+    const Eigen::VectorXd values = Forward(experiment, rows, structures).predict(model);
     std::vector<Complex> all(strains.size());
     for (std::size_t k = 0; k < rows.size(); ++k) {
         const double value = values[static_cast<Eigen::Index>(k)];
@@ -110,6 +110,17 @@ TEST(ThirdHarmonic, OfHertzContactsIsThatOfExplicitSteps) {
     Simulator alone({packing}, {"alone"}, cache);
     const Complex simulated = third_harmonic(waveforms_of(result.runs.front()).back());
     EXPECT_NEAR(simulated.real(), predicted(settings, {1e-3}, alone).front().real(), 0.03) << simulated;
+}
+
+/// Stress as strain + strain^3: sin^3 = (3 sin - sin 3) / 4.
+TEST(ThirdHarmonic, OfALawOfTheStressIsThatOfItsPower) {
+    Mechanism cubic{};
+    cubic.effect = BendsStress{[](double strain, Values values) { return 1 + std::pow(strain / values[0], 2); }};
+    Model model;
+    model.acting = {{&cubic, {1e-2}}};
+    const Complex found = predicted(model, {2e-2}).front();
+    EXPECT_NEAR(found.real(), -0.25 * 4 / (1 + 0.75 * 4), 1e-12);
+    EXPECT_NEAR(found.imag(), 0, 1e-12);
 }
 
 /// First oscillations in which bonds break, so slow that the rate of the run does not count; the mean over the two structures, and

@@ -63,6 +63,12 @@ struct ScalesMaterial {
     std::complex<double> (*factor)(const Observation& row, Values values, const SimulatedSample& sample);
 };
 
+/// A law of the material that is the same in both directions and has no memory: stress over strain at a momentary strain, over that
+/// of small strains. Moduli and third harmonics of an oscillation follow from it.
+struct BendsStress {
+    double (*secant)(double strain, Values values);
+};
+
 /// The modulus that plates or cone show of one of the material [Pa].
 struct ChangesGeometry {
     std::complex<double> (*apparent)(std::complex<double> modulus, const Observation& row, Values values);
@@ -73,7 +79,7 @@ struct ChangesTool {
     std::complex<double> (*apparent)(std::complex<double> modulus, const Observation& row, Values values);
 };
 
-using Effect = std::variant<ChangesSimulation, ScalesMaterial, ChangesGeometry, ChangesTool>;
+using Effect = std::variant<ChangesSimulation, ScalesMaterial, BendsStress, ChangesGeometry, ChangesTool>;
 
 /// The link of the chain from the structures to the numbers that an instrument shows.
 enum class Link { structure, material, history, geometry, tool, errors };

@@ -62,6 +62,13 @@ struct Model {
     /// Settings of the simulation.
     Settings simulated() const;
 
+    /// Whether a mechanism that changes this link acts.
+    template <class Link>
+    bool has() const {
+        return std::any_of(acting.begin(), acting.end(),
+                           [](const ActingMechanism& one) { return std::holds_alternative<Link>(one.mechanism->effect); });
+    }
+
     /// Calls f(effect, values) for each acting mechanism that changes this link, in the order of the catalogue.
     template <class Link, class Function>
     void for_each(const Function& f) const {
