@@ -9,6 +9,7 @@ from math import log10, pi, sqrt
 from pathlib import Path
 from statistics import mean, median
 
+import shown_cases
 from open_set import add_open_set
 
 
@@ -22,9 +23,7 @@ ON_THEIR_DAYS = ("ageing-power", "ageing-saturating", "temperature-drift", "evap
                 "poroelastic-backflow", "poroelastic-backflow-gradual", "poroelastic-backflow-radii",
                 "volume-fraction-gradient", "bearing-damping", "phase-offset", "sample-inertia")
 # Rows of shown_cases.py with a cause of the catalogue, whose parameters are compared, too.
-SHOWN = ("contact-nonlinearity", "ageing-up-and-down", "normal-load", "loading-relaxation", "temperature-drift-loaded", "prestress",
-         "bond-bending-series", "ageing-after-shear", "ageing-sheared", "torque-offset", "torque-offset-plates",
-         "shear-thinning", "localisation-error", "polydispersity", "surface-potential")
+SHOWN = tuple(row for row in shown_cases.ROWS if row not in NULLS)
 COMPARED = (*SHOWN, "activated-rupture", "bond-strength-rates")
 CRITICAL_STRAIN = 1e-4  # of all bonds that break
 RATES_STRAIN = 4e-4     # largest of the sweeps at two frequencies
