@@ -19,8 +19,8 @@
 namespace coagula::diagnose {
 namespace {
 
-constexpr double level = 6e5;      // Pa, of the hidden sample
-constexpr double relative = 0.02;  // errors of G', and of G'' over |G*|
+constexpr double level = 6e5;            // Pa, of the hidden sample
+constexpr double relative_error = 0.02;  // errors of G', and of G'' over |G*|
 
 using Modulus = std::function<std::complex<double>(double angular_frequency)>;
 
@@ -38,7 +38,7 @@ Experiment sweeps_of(const Modulus& modulus, std::uint64_t seed) {
         const std::vector<double> frequencies = logarithmic_steps(0.5, 600, 16);
         for (std::size_t row = 0; row < frequencies.size(); ++row) {
             const std::complex<double> value = modulus(frequencies[row]);
-            const double error = relative * std::abs(value);
+            const double error = relative_error * std::abs(value);
             storage.values.push_back(value.real() + error * drawn_normal(seed, 2 * row));
             loss.values.push_back(value.imag() + error * drawn_normal(seed, 2 * row + 1));
             storage.standard_errors.push_back(error);

@@ -20,7 +20,7 @@ using Complex = std::complex<double>;
 using std::numbers::pi;
 
 /// A structure that the diagnosis does not know.
-const Packing& sample() {
+const Packing& hidden_sample() {
     static const Packing made = structure(260, 77);
     return made;
 }
@@ -48,7 +48,8 @@ Complex shown(Complex modulus, double angular_frequency, double gap, const Fault
 
 /// Modulus of the hidden sample by the frequency solver.
 Complex modulus_of(const ContactModel& model, double frequency) {
-    const auto response = mechanics::solve_frequency_sweep(sample(), find_contacts(sample(), 0.01), model, {&frequency, 1});
+    const auto response =
+        mechanics::solve_frequency_sweep(hidden_sample(), find_contacts(hidden_sample(), 0.01), model, {&frequency, 1});
     return response.points[0].mean_shear_modulus();
 }
 

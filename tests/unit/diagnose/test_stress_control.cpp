@@ -17,9 +17,9 @@
 namespace coagula::diagnose {
 namespace {
 
-constexpr double set_stress = 5;     // Pa
-constexpr double inertia = 26.2e-6;  // kg.m2
-constexpr double highest = 63;       // rad/s, where G' is about -150 Pa
+constexpr double set_stress = 5;            // Pa
+constexpr double hidden_inertia = 26.2e-6;  // kg.m2
+constexpr double highest = 63;              // rad/s, where G' is about -150 Pa
 
 /// A soft solid under a plate whose inertia nobody took off, the stress of every row the same.
 Measurement sweep_under_stress() {
@@ -37,7 +37,7 @@ Measurement sweep_under_stress() {
         const double frequency = table.columns[0].values[row];
         const std::complex<double> product(0, frequency);
         const std::complex<double> sample = 150.0 * std::pow(0.3 * product, 0.15) + 0.3 * product;
-        const std::complex<double> seen = sample - inertia * per_torque * frequency * frequency;
+        const std::complex<double> seen = sample - hidden_inertia * per_torque * frequency * frequency;
         const double error = 0.01 * std::abs(seen);
         table.columns[3].values.push_back(seen.real() + error * drawn_normal(7, 2 * row));
         table.columns[4].values.push_back(seen.imag() + error * drawn_normal(7, 2 * row + 1));
@@ -104,8 +104,8 @@ TEST(StressControl, ASmoothMaterialDoesNotVaryAlongTheStrainThatFollows) {
     std::erase_if(experiment.measurements[0].columns,
                   [](const Column& column) { return column.name == "strain" || column.name == "stress"; });
     const EstimatedParameter without_strain = inertia_in();
-    EXPECT_NEAR(with_strain.value, without_strain.value, 1e-3 * inertia);
-    EXPECT_NEAR(with_strain.value, inertia, 0.05 * inertia);
+    EXPECT_NEAR(with_strain.value, without_strain.value, 1e-3 * hidden_inertia);
+    EXPECT_NEAR(with_strain.value, hidden_inertia, 0.05 * hidden_inertia);
 }
 
 }  // namespace

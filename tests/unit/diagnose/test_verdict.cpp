@@ -22,8 +22,8 @@ namespace {
 
 constexpr double gel = 6e5;        // Pa
 constexpr double relative = 0.02;  // errors of G', and of G'' over |G*|
-constexpr double radius = 0.0125;
-constexpr double gap = 1e-3;
+constexpr double plate_radius = 0.0125;
+constexpr double plate_gap = 1e-3;
 
 struct Row {
     double strain;
@@ -66,7 +66,7 @@ const std::vector<double> small_strain(12, 1e-5);
 Experiment sweeps(MeasurementKind kind, const Effect& modulus, std::uint64_t seed = 100) {
     Experiment experiment;
     experiment.sample.particle_radius = 0.25e-6;
-    experiment.instrument = {.geometry = Geometry::plate_plate, .plate_radius = radius, .gap = gap};
+    experiment.instrument = {.geometry = Geometry::plate_plate, .plate_radius = plate_radius, .gap = plate_gap};
     for (const char sample : {'A', 'B', 'C'}) {
         experiment.measurements.push_back(measured(kind, sample, kind == MeasurementKind::amplitude_sweep ? strains : small_strain,
                                                    kind == MeasurementKind::frequency_sweep ? frequencies : one_frequency, 40,
@@ -83,7 +83,7 @@ Diagnosis verdict_on(const Experiment& experiment) {
 }
 
 double per_torque() {
-    return 2 * gap / (std::numbers::pi * std::pow(radius, 4));
+    return 2 * plate_gap / (std::numbers::pi * std::pow(plate_radius, 4));
 }
 
 /// A name, its conditions and its set say the same, whatever the verdict.
@@ -212,7 +212,7 @@ Experiment oil(double angle, const std::vector<double>& gaps) {
 /// In an oil G' takes what a wrong phase leaves of G'': the size that is stated is the angle, and no departure is divided by
 /// the base model's G' = 0.
 TEST(Verdict, StatesTheAngleOfAPhaseThatIsOff) {
-    const Diagnosis found = verdict_on(oil(0.06, std::vector<double>(12, gap)));
+    const Diagnosis found = verdict_on(oil(0.06, std::vector<double>(12, plate_gap)));
     expect_consistent(found);
     EXPECT_EQ(kind_of(found), "tool along level");
     EXPECT_NEAR(std::abs(found.follows.largest), 0.06, 0.01);
@@ -227,7 +227,7 @@ TEST(Verdict, StatesTheAngleOfAPhaseThatIsOff) {
 
 /// A row that lost its gap is not compared at the gap of the instrument.
 TEST(Verdict, RowsThatLostTheirGapTakeNoPart) {
-    std::vector<double> gaps(12, gap);
+    std::vector<double> gaps(12, plate_gap);
     const std::size_t all = verdict_on(oil(0, gaps)).observations;
     gaps[2] = unset;
     EXPECT_EQ(verdict_on(oil(0, gaps)).observations, all - 6);
