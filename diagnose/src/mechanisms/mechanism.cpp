@@ -22,6 +22,7 @@
     ENTRY(activated_rupture)        \
     ENTRY(plate_strain_field)       \
     ENTRY(contact_nonlinearity)     \
+    ENTRY(bond_stiffening)          \
     ENTRY(reversible_softening)     \
     ENTRY(thixotropy)               \
     ENTRY(prestress)                \

@@ -38,6 +38,7 @@ class Hidden:
     skin: float = 0.0       # growth of the stiffness of a skin around the rim [N/(m s)]
     fracture: tuple = ()    # strain at a gap of 1 mm, power of the torque that is left
     softening: tuple = ()   # strain at which half of the contacts are open, exponent, loss there over the modulus
+    stiffening: tuple = ()  # strain at which bonds pull twice as much as springs, exponent of what is more
     loss_of_hold: tuple = ()  # sample, row among all its rows, share of the torque that remains
     dashpot: float = 0.0    # viscosity of a contact over its stiffness [s]
     relaxing: tuple = ()    # part of a contact that relaxes over the rest, time [s]
@@ -240,6 +241,8 @@ def true_modulus(material, session, table):
         odds = (table.strain / half)**(2 * exponent)
         opened = odds / (1 + odds)
         modulus *= 1 - opened + 2j * loss * numpy.sqrt(opened * (1 - opened))
+    if hidden.stiffening:
+        modulus *= stiffened(table.strain, *hidden.stiffening)
     clock = table.start + table.time
     if hidden.power:
         exponent, begin = hidden.power
@@ -266,6 +269,14 @@ def true_modulus(material, session, table):
         size, period = hidden.warmth
         modulus *= 1 + size * numpy.sin(2 * numpy.pi * clock / period)
     return modulus
+
+
+def stiffened(amplitudes, begin, exponent, steps=400):
+    """First harmonic of the force of strands over that of springs, moment by moment."""
+    sines = numpy.sin(2 * numpy.pi * (numpy.arange(steps) + 0.5) / steps)
+    extensions = numpy.outer(amplitudes, sines)
+    forces = extensions + extensions * abs(extensions / begin)**exponent
+    return 2 * numpy.mean(forces * sines, axis=1) / amplitudes
 
 
 def with_waves(modulus, density, table, layers=400):

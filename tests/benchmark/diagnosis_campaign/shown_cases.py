@@ -35,6 +35,14 @@ def hertz(generator, material):
                   lambda place: Hidden("contact-nonlinearity", hertz=3e-2 * (1e-5 / 3e-2)**place))
 
 
+def stiffening(generator, material):
+    """The same of strands."""
+    session = draw_session(generator, material, tables=up_and_down())
+    exponent = float(generator.uniform(1.6, 2.6))
+    return scaled(session, material, float(generator.choice(GAINS)),
+                  lambda place: Hidden("bond-stiffening", stiffening=(2e-4**place, exponent)))
+
+
 def ageing_up_and_down(generator, material):
     """What looks like Hertz contacts on the way up."""
     session = draw_session(generator, material, tables=up_and_down())
@@ -123,7 +131,8 @@ def pair(generator):
     return tuple(int(number) for number in generator.choice(images.POOL, 2, replace=False))
 
 
-ROWS = {"contact-nonlinearity": hertz, "ageing-up-and-down": ageing_up_and_down, "prestress": prestress, "bond-bending-series": bending_series,
+ROWS = {"contact-nonlinearity": hertz, "bond-stiffening": stiffening, "ageing-up-and-down": ageing_up_and_down,
+        "prestress": prestress, "bond-bending-series": bending_series,
         "normal-load": normal_load(True), "loading-relaxation": normal_load(False), "temperature-drift-loaded": cooling_under_load,
         "ageing-after-shear": after_shear, "ageing-sheared": ageing_sheared,
         "torque-offset": flow("torque-offset", "torque", 1e-5),

@@ -57,7 +57,7 @@ def true_values(truth, hidden):
     fields = {"ageing": "ageing", "tool-compliance": "compliance", "tool-inertia": "inertia", "solvent-drag": "viscosity", "wall-slip": "slip",
               "gap-error": "gap_error", "contact-nonlinearity": "hertz", "normal-load": "pressure", "polydispersity": "sizes",
               "surface-potential": "potential"}
-    several = {"contact-loss": "loss", "ageing-after-shear": "power", "localisation-error": "images"}
+    several = {"contact-loss": "loss", "bond-stiffening": "stiffening", "ageing-after-shear": "power", "localisation-error": "images"}
     if truth in fields:
         return [hidden[fields[truth]]]
     if truth in several:
