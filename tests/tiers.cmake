@@ -13,6 +13,7 @@ set(coagula_slow_tests
   "Diagnosis[.](FindsNothing|FollowsTheScale|NamesTheStrength|SaysThatADeparture|SaysWhenNoCause).*"
   "Evidence[.]OfAPair.*"
   "HiddenEffects[.](ASampleThatLiesApart|ErrorsOf|FalseParticles|LookAlikes|ShearStiffness|TwoEffects).*"
+  "IonicStrength[.](More|Hidden).*"
   "MissingContacts[.](A|Curve|Follow).*"
   "NormalLoad[.]IsNamed.*"
   "PlateStrainField[.].*"

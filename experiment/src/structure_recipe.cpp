@@ -16,9 +16,12 @@ using diagnose::StructureChange;
 using diagnose::StructureRecipe;
 
 constexpr double usual_coordination = 4.69;  ///< where coagulation stops, as void expansion does
-
 double coordination_of(const StructureRecipe& recipe) {
     return std::isfinite(recipe.target_coordination) ? recipe.target_coordination : usual_coordination;
+}
+
+double usual_debye_length() {
+    return generators::CoagulationOptions{}.debye_length;
 }
 
 /// What a structure is made of.
@@ -26,11 +29,13 @@ struct Making {
     StructureRecipe recipe;
     Sample sample;
     double size_deviation;
+    double debye_length;  ///< [m]
     std::size_t seed;
 };
 
 Making making(const StructureRecipe& recipe, const Sample& sample, std::size_t seed, const StructureChange& change) {
-    Making one{recipe, sample, change.size_deviation, seed};
+    // The Debye length goes as one over the root of the ionic strength.
+    Making one{recipe, sample, change.size_deviation, usual_debye_length() / std::sqrt(change.ionic_strength), seed};
     if (std::isfinite(change.surface_potential)) {
         one.recipe.surface_potential = change.surface_potential;
     }
@@ -68,6 +73,7 @@ generators::CoagulationOptions coagulation_of(const Making& one) {
     options.sizes = sizes_of(one);
     options.volume_fraction = one.sample.volume_fraction;
     options.surface_potential = one.recipe.surface_potential;
+    options.debye_length = one.debye_length;
     options.temperature = std::isfinite(one.sample.temperature) ? one.sample.temperature : options.temperature;
     options.target_coordination = coordination_of(one.recipe);
     options.seed = one.seed;
@@ -95,6 +101,9 @@ std::string call_of(const Making& one) {
     }
     if (coagulates) {
         add_needed("surface-potential", one.recipe.surface_potential, "structures.surface_potential");
+        if (one.debye_length != usual_debye_length()) {
+            add("debye-length", to_text(one.debye_length));
+        }
         if (std::isfinite(one.sample.temperature)) {
             add("temperature", to_text(one.sample.temperature));
         }

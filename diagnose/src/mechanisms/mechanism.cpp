@@ -58,6 +58,7 @@
     ENTRY(localisation_error)       \
     ENTRY(polydispersity)           \
     ENTRY(surface_potential)        \
+    ENTRY(ionic_strength)           \
     ENTRY(volume_fraction)          \
     ENTRY(coordination)             \
     ENTRY(heterogeneity)

@@ -12,6 +12,7 @@ namespace {
 constexpr NodeAxis size_axis{0.03, 0.4, 7};  // at 0.03 no shell of neighbours notices
 /// Below 11 mV particles of 0.25 um in water have no barrier, and coagulation hardly knows the potential.
 constexpr LinearAxis potential_axis{0.011, 0.015, 5};
+constexpr NodeAxis ions_axis{1, 4, 6};               // its first is the structure as it is
 constexpr LinearAxis fraction_axis{-0.15, 0.15, 5};  // its middle is the structure as it is
 constexpr LinearAxis coordination_axis{4.3, 5.1, 5};
 constexpr NodeAxis voids_axis{0.125, 1, 4};
@@ -33,6 +34,7 @@ Value asked_over_changes(Simulator& simulator, const StructureChange& change, co
     };
     add(size_axis, &StructureChange::size_deviation);
     add(potential_axis, &StructureChange::surface_potential);
+    add(ions_axis, &StructureChange::ionic_strength);
     add(fraction_axis, &StructureChange::volume_fraction);
     add(coordination_axis, &StructureChange::coordination);
     add(voids_axis, &StructureChange::voids);

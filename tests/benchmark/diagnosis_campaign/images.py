@@ -11,7 +11,7 @@ from session import Hidden
 RADIUS = 0.25e-6
 IMAGED, COAGULATED = 700, 300  # particles of a sample
 POOL = 12                      # samples of each kind, of which each run sees two
-KNOWN = {"vem": ["particles = 500"], "brownian": ["particles = 300", "surface_potential = 0.0"]}
+KNOWN = {"vem": ["particles = 500"], "brownian": ["particles = 300"]}
 SHELLS = numpy.arange(0.55, 2.2, 0.1)  # over the diameter
 PORES = numpy.linspace(0.02, 1.0, 25) * RADIUS
 
@@ -19,11 +19,12 @@ PORES = numpy.linspace(0.02, 1.0, 25) * RADIUS
 def sample(material, number, hidden, generator="vem"):
     """Centres, radii and box of one."""
     if generator == "brownian":
-        words = ["--particles", COAGULATED, "--surface-potential", hidden.potential, "--stop-coordination", 4.69]
+        words = ["--particles", COAGULATED, "--surface-potential", hidden.potential, "--debye-length", 1e-8 / hidden.ions**0.5,
+                 "--stop-coordination", 4.69]
     else:
         words = ["--particles", IMAGED, "--voids", IMAGED // 2]
         words += ["--size-distribution", f"lognormal:{hidden.sizes}"] if hidden.sizes else []
-    path = material.bank / f"imaged_{generator}_{hidden.sizes}_{hidden.potential}_{number}.h5"
+    path = material.bank / f"imaged_{generator}_{hidden.sizes}_{hidden.potential}_{hidden.ions}_{number}.h5"
     if not path.exists():
         material.run("generate", generator, "--volume-fraction", 0.4, "--radius", RADIUS, "--seed", 4000 + number, *words, "-o", path)
     return material.particles(path)
@@ -71,12 +72,15 @@ class Images:
     kind: str         # "coordinates" or "pore-curve"
     numbers: tuple    # of the samples
     generator: str = "vem"
+    stated: Hidden = Hidden()  # what the recipe knows
     stiffness: float = float("nan")
 
     def write(self, material, folder, generator):
         folder.mkdir(parents=True, exist_ok=True)
         lines = ["[sample]", f"particle_radius = {RADIUS}", "volume_fraction = 0.4", "", "[structures]", f'generator = "{self.generator}"',
                  *KNOWN[self.generator], "seeds = [1, 2]", ""]
+        if self.generator == "brownian":
+            lines[-2:-2] = [f"surface_potential = {self.stated.potential}"]
         for number in self.numbers:
             particles = sample(material, number, self.hidden, self.generator)
             if self.kind == "coordinates":
@@ -96,8 +100,8 @@ class Images:
             generator = numpy.random.default_rng(1)
             each = [sample(material, number, hidden, self.generator) for number in range(POOL)]
             return numpy.array([shells(seen(one, hidden, generator)) if self.kind == "coordinates" else pore_curve(one, generator) for one in each])
-        key = lambda hidden: f"{self.kind} {self.generator} {hidden.images} {hidden.sizes} {hidden.potential}"
-        curves = [numpy.array(material.remembered(key(hidden), lambda hidden=hidden: measured(hidden).tolist())) for hidden in (self.hidden, Hidden())]
+        key = lambda hidden: f"{self.kind} {self.generator} {hidden.images} {hidden.sizes} {hidden.potential} {hidden.ions}"
+        curves = [numpy.array(material.remembered(key(hidden), lambda hidden=hidden: measured(hidden).tolist())) for hidden in (self.hidden, self.stated)]
         # Bins scatter together: along the principal axes of the scatter that stand out.
         difference = curves[0].mean(axis=0) - curves[1].mean(axis=0)
         _, sizes, axes = numpy.linalg.svd(curves[1] - curves[1].mean(axis=0), full_matrices=False)

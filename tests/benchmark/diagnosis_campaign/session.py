@@ -56,6 +56,7 @@ class Hidden:
     images: tuple = ()      # errors in the plane and along z [m], shares of missed and of false centres
     sizes: float = 0.0      # relative deviation of the particles' radii
     potential: float = 0.0  # of the surfaces on which particles coagulated [V]
+    ions: float = 1.0       # among which they did, over those of a Debye length of 10 nm
     hertz: float = 0.0      # overlap of Hertz contacts at rest, over the radius
     pressure: float = 0.0   # that presses contacts as their adhesion does, where plates press them further apart or together [Pa] (pressed.py)
     rim: bool = False       # strain grows along the radius of the plates: bonds break at the rim first

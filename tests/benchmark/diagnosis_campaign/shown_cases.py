@@ -19,6 +19,8 @@ NARROW, WIDE = 12.5e-3, 25e-3            # plates
 FOUND = {"weak": (1.5e-8, 3e-8, 0.01, 0.01), "strong": (2.5e-8, 6e-8, 0.03, 0.03)}  # as in Hidden.images
 SIZES = (0.08, 0.16)
 POTENTIALS = (0.013, 0.014)  # the prior ends at 0.015
+BARRIER = 0.0145               # V, of a recipe
+IONS = (1.6, 2.4)
 TENSIONS = (6e-3, 9e-3)
 BUILD_UP = (0.15, 0.6)                   # exponents
 PER_DECADE = (0.04, 0.1)
@@ -122,6 +124,11 @@ def potential(generator, material):
     return Images(Hidden("surface-potential", potential=float(generator.choice(POTENTIALS))), "pore-curve", pair(generator), "brownian")
 
 
+def ions(generator, material):
+    hidden = Hidden("ionic-strength", potential=BARRIER, ions=float(generator.choice(IONS)))
+    return Images(hidden, "pore-curve", pair(generator), "brownian", Hidden(potential=BARRIER))
+
+
 def sharp(kind, maker):
     """Nothing hidden."""
     return lambda generator, material: Images(Hidden(), kind, pair(generator), maker)
@@ -139,4 +146,5 @@ ROWS = {"contact-nonlinearity": hertz, "bond-stiffening": stiffening, "ageing-up
         "torque-offset-plates": flow("torque-offset", "torque", 1e-5, plates=(NARROW, NARROW, WIDE, WIDE), gaps=(1e-3,) * 4),
         "shear-thinning": thinning,
         "localisation-error": localisation, "polydispersity": sizes, "surface-potential": potential,
+        "ionic-strength": ions,
         "null-coordinates": sharp("coordinates", "vem"), "null-pores": sharp("pore-curve", "brownian")}

@@ -56,7 +56,7 @@ def true_values(truth, hidden):
     """Of the parameters of the true cause, in their order; none where they are not compared."""
     fields = {"ageing": "ageing", "tool-compliance": "compliance", "tool-inertia": "inertia", "solvent-drag": "viscosity", "wall-slip": "slip",
               "gap-error": "gap_error", "contact-nonlinearity": "hertz", "normal-load": "pressure", "polydispersity": "sizes",
-              "surface-potential": "potential"}
+              "surface-potential": "potential", "ionic-strength": "ions"}
     several = {"contact-loss": "loss", "bond-stiffening": "stiffening", "ageing-after-shear": "power", "localisation-error": "images"}
     if truth in fields:
         return [hidden[fields[truth]]]

@@ -13,6 +13,7 @@ namespace coagula::diagnose {
 struct StructureChange {
     double size_deviation = 0;  ///< standard deviation of the radii over their mean, of lognormal sizes
     double surface_potential = std::numeric_limits<double>::infinity();  ///< of coagulation [V]; infinite: as the recipe says
+    double ionic_strength = 1;                                           ///< over that of the recipe
     double volume_fraction = 0;                                          ///< relative change of that of the sample
     double coordination = std::numeric_limits<double>::infinity();       ///< aimed at; infinite: as the recipe says
     double voids = std::numeric_limits<double>::infinity();              ///< per particle; infinite: as the recipe says
