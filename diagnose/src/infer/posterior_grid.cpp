@@ -199,6 +199,25 @@ void ClosingGrid::fill(const std::vector<int>& along) {
     grid_.log_cell = width.log().sum();
     grid_.cell = width.matrix().asDiagonal();
     grid_.half_widths = (0.5 * width).matrix();
+    const auto [lower, upper] = cut_ends();
+    grid_.cut = lower.any() || upper.any();
+}
+
+/// At which ends of the box, but not of the prior, a node has a noticeable part of the largest weight: lower and upper ones.
+std::pair<ClosingGrid::Ends, ClosingGrid::Ends> ClosingGrid::cut_ends() const {
+    constexpr double noticeable = 3;  // logarithms below the best node
+    const Eigen::ArrayXd width = 2 * grid_.half_widths.array();
+    const double least = grid_.nodes[grid_.best()].log_weight - noticeable;
+    Ends lower = Ends::Constant(width.size(), false);
+    Ends upper = lower;
+    for (std::size_t k = 0; k < grid_.nodes.size(); ++k) {
+        if (grid_.nodes[k].log_weight > least) {
+            const Eigen::ArrayXd place = grid_.places[k].array();
+            lower = lower || (place < low_ + width && low_ > 0);
+            upper = upper || (place > high_ - width && high_ < 1);
+        }
+    }
+    return {lower, upper};
 }
 
 /// Few along axes along which the posterior hardly varies, and the more along the others.
@@ -220,7 +239,7 @@ void ClosingGrid::close_in(int rounds) {
     for (int round = 0; round < rounds && !settled_; ++round) {
         const auto [low, high] = box_of_posterior();
         const bool stays = (low >= low_).all() && (high <= high_).all() && ((high - low) > same_size * (high_ - low_)).all();
-        settled_ = stays && (is_box_ || grid_.resolves_axes());
+        settled_ = stays && !grid_.cut && (is_box_ || grid_.resolves_axes());
         if (!settled_) {
             const double before = grid_.log_evidence();
             const std::vector<int> along = nodes_of_box();
@@ -229,7 +248,7 @@ void ClosingGrid::close_in(int rounds) {
             fill(along);
             is_box_ = true;
             settled_ = std::abs(grid_.log_evidence() - before) < same_evidence && grid_.effective_nodes() > enough &&
-                       grid_.resolves_axes();
+                       grid_.resolves_axes() && !grid_.cut;
         }
     }
 }
@@ -286,6 +305,11 @@ std::pair<Eigen::ArrayXd, Eigen::ArrayXd> ClosingGrid::box_of_posterior() const 
             highest = (place > high_ - width).select(1.0, highest);
         }
     }
+    // A cell at a time would take many rounds.
+    const Eigen::ArrayXd much = 0.5 * (high_ - low_);
+    const auto [lower, upper] = cut_ends();
+    low = lower.select(low.min(low_ - much), low);
+    high = upper.select(high.max(high_ + much), high);
     return {low.max(lowest), high.min(highest)};
 }
 

@@ -34,6 +34,7 @@ struct PosteriorGrid {
     Eigen::VectorXd mode;         ///< about which the nodes lie, if they do about one
     Eigen::MatrixXd factor;       ///< of the covariance there, lower triangular
     bool clipped = false;         ///< the prior ends before that normal posterior does
+    bool cut = false;             ///< its box ends where the posterior does not, inside the prior
     std::vector<int> along = {};  ///< nodes along each axis, the first axis fastest; empty: those about a mode
 
     std::vector<double> log_weights() const;
@@ -81,6 +82,8 @@ private:
     void fill(const std::vector<int>& along);
     std::vector<int> nodes_of_box() const;
     std::pair<Eigen::ArrayXd, Eigen::ArrayXd> box_of_posterior() const;
+    using Ends = Eigen::Array<bool, Eigen::Dynamic, 1>;  ///< one of each axis
+    std::pair<Ends, Ends> cut_ends() const;
 
     EvaluateNode evaluate_;
     Eigen::ArrayXd low_;  ///< corners of the part of the prior that it fills

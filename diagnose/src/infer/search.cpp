@@ -41,7 +41,8 @@ bool sees_more(const PosteriorGrid& about, const PosteriorGrid& along) {
         return true;
     }
     const bool has_more = !along.is_fine() && about.effective_nodes() > along.effective_nodes();
-    return gain > -1 && (!along.resolves_axes() || has_more);
+    const bool goes_beyond = along.cut && about.is_fine();
+    return gain > -1 && (!along.resolves_axes() || has_more || goes_beyond);
 }
 
 /// Whether a grid about the mode holds all of the posterior that one over the whole prior sees.

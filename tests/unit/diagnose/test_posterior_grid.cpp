@@ -51,6 +51,30 @@ TEST(PosteriorGrid, FollowsARidgeAcrossTheAxes) {
     EXPECT_FALSE(grid.reaches(mean + Eigen::Vector2d(0.03, -0.03)));
 }
 
+/// A bent ridge along which the density still grows where a box about the first nodes ends: while that is so, the grid is not
+/// settled, and it says that it is cut.
+TEST(PosteriorGrid, IsNotSettledWhereItsBoxCutsThePosterior) {
+    constexpr double across = 0.0024;
+    constexpr double along = 0.19;
+    const EvaluateNode density = [](const Eigen::VectorXd& place) {
+        const double ridge = 0.5 - 0.078 * place[1] + 0.024 * place[1] * place[1];
+        const double aside = (place[0] - ridge) / across;
+        const double ahead = (place[1] - 0.85) / along;
+        return Node{.log_weight = -0.5 * (aside * aside + ahead * ahead)};
+    };
+    ClosingGrid closing(2, density);
+    bool was_cut = false;
+    for (int round = 0; round < 12 && !closing.is_settled(); ++round) {
+        closing.close_in(1);
+        was_cut = was_cut || closing.grid().cut;
+        EXPECT_FALSE(closing.grid().cut && closing.is_settled());
+    }
+    EXPECT_TRUE(was_cut) << "the ridge is no test";
+    EXPECT_FALSE(closing.grid().cut);
+    EXPECT_GT(closing.grid().quantile(1, 0.95), 0.95);
+    EXPECT_NEAR(closing.grid().quantile(1, 0.05), 0.516, 0.01) << "of a normal density that ends at 1";
+}
+
 /// A slope of 4 logarithms over the prior needs no finer grid; one of 40 does.
 TEST(PosteriorGrid, HasFewNodesWhereThePosteriorHardlyDiffersFromThePrior) {
     const auto slope_of = [](double slope) {
