@@ -5,10 +5,11 @@ namespace coagula::diagnose::mechanisms {
 
 namespace {
 
-/// The loss acts from a place among the rows on, to the last run on that sample.
+/// The loss acts from a place among the rows on, to the last run on that sample. At least three rows of the sample lie before it
+/// and three behind it: one or two that differ are outliers.
 std::complex<double> lost(std::complex<double> modulus, const Observation& row, Values values) {
-    const bool behind = !is<Viscosity>(row) && row.sample_place <= values[0] && row.place > values[0];
-    return behind ? modulus * values[1] : modulus;
+    const bool is_loss = row.third_place <= values[0] && values[0] < row.last_third_place;
+    return is_loss && !is<Viscosity>(row) && row.place > values[0] ? modulus * values[1] : modulus;
 }
 
 /// In fewer rows a step is a few outliers.

@@ -49,9 +49,14 @@ ConditionsOfRows::ConditionsOfRows(const Experiment& experiment) : experiment_(e
     double next = 0;  // row, one sample after the other, its runs in their order
     for (auto& [sample, runs] : samples) {
         std::stable_sort(runs.begin(), runs.end(), [&](std::size_t a, std::size_t b) { return times[a].order < times[b].order; });
+        double end = next;
+        for (const std::size_t run : runs) {
+            end += static_cast<double>(tables[run].rows());
+        }
         const double first = next;
         for (const std::size_t run : runs) {
-            runs_[run].sample_place = first / rows;
+            runs_[run].third_place = (first + 2) / rows;
+            runs_[run].last_third_place = (end - 3) / rows;
             if (shows_shear(tables[run])) {
                 follow_rows(run, next / rows, 1 / rows);
             }
@@ -108,7 +113,8 @@ RowConditions ConditionsOfRows::of(std::size_t number, std::size_t row) const {
             .time = time,
             .age = time - run.time.sheared,
             .place = run.places[row],
-            .sample_place = run.sample_place,
+            .third_place = run.third_place,
+            .last_third_place = run.last_third_place,
             .gap = under_cone ? unset : (std::isnan(gap) ? instrument.gap : gap),
             .plate_radius = std::isnan(radius) ? instrument.plate_radius : radius,
             .torque_per_modulus = tool_constants(instrument, gap, radius, table.cone_angle).torque_per_modulus(),

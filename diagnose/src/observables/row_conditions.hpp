@@ -20,7 +20,8 @@ struct RowConditions {
     double time = unset;                ///< on the clock of the sample (run_clock.hpp) [s]
     double age = unset;                 ///< time since the last shear that destroyed the structure [s]
     double place = unset;               ///< among all rows of all runs, 0 .. 1, sample by sample in their order
-    double sample_place = unset;        ///< place of the first row of the sample
+    double third_place = unset;         ///< place of the third row of the sample
+    double last_third_place = unset;    ///< ... and of its last but two
     double gap = unset;                 ///< [m]
     double plate_radius = unset;        ///< [m]
     double torque_per_modulus = unset;  ///< torque per deflection over the modulus [m^3]
@@ -52,7 +53,8 @@ private:
     /// A run holds what the conditions of its rows need besides the cells.
     struct Run {
         RunTime time;
-        double sample_place = 0;  ///< as in RowConditions
+        double third_place = 0;  ///< as in RowConditions
+        double last_third_place = 0;
         std::vector<double> places = {};
         std::vector<double> set_strains = {};
         std::vector<double> largest_strains = {};

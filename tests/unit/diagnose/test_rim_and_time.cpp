@@ -188,6 +188,22 @@ TEST(SuddenLoss, StaysWithItsSampleAndLeavesTheOthers) {
     }
 }
 
+/// One or two rows that differ, at the beginning or at the end, are outliers.
+TEST(SuddenLoss, HasThreeRowsBeforeAndBehindIt) {
+    Experiment experiment;
+    experiment.measurements = up_and_down(1e-3, "a");
+    const std::vector<Observation> rows = observations_of(experiment);
+    const auto changed = [&](double place) {
+        return std::count_if(rows.begin(), rows.end(), [&](const Observation& row) {
+            return shown("sudden-loss", 1, row, {place, 0.6}).real() < 1;
+        });
+    };
+    const std::vector<std::ptrdiff_t> behind{0, 0, 5, 4, 3, 0, 0, 0};
+    for (std::size_t k = 0; k < behind.size(); ++k) {
+        EXPECT_EQ(changed((static_cast<double>(k) + 0.5) / 8), behind[k]) << k;
+    }
+}
+
 /// Of a material without a model nobody knows whether it yielded; another table on it tells, and networks have a law for it.
 TEST(SuddenLoss, OfASmoothMaterialNeedsMoreThanAGrowingStrain) {
     Measurement sweep;
