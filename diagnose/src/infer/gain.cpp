@@ -278,6 +278,7 @@ Gain measure_gain(const DataSet& all, const std::vector<std::vector<bool>>& fold
     const SmoothDepartures departures = smooth_departures(all.observations);
     std::vector<FoldGain> gains(folds.size());
     simulator.together(folds.size(), [&](std::size_t k) {
+        // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): it remembers its last material
         const Forward own(everywhere);
         gains[k] = gain_of_fold(all, folds[k], own, departures, possible, options);
     });
