@@ -158,7 +158,7 @@ TEST(Linear, NetworkThatCarriesNothingHasModulusZero) {
 }
 
 /// 44 modes without stiffness and some with hardly any: conjugate gradients come near to the tolerance and then lose what they had.
-TEST(Linear, AnswersWhereSoftModesLeaveALargerResidual) {
+TEST(Linear, ReachesItsToleranceBesideSoftModes) {
     generators::VoidExpansionOptions expansion;
     expansion.particles = 400;
     expansion.voids = 200;
@@ -168,7 +168,7 @@ TEST(Linear, AnswersWhereSoftModesLeaveALargerResidual) {
     const Packing packing = generators::expand_voids(expansion).packing;
     const ContactNetwork bonds = find_contacts(packing, 0.001);
     const LinearResponse direct = solve_linear(packing, bonds);
-    EXPECT_LE(direct.residual, 2e-9);
+    EXPECT_LE(direct.residual, 2e-10);
     LinearOptions options;
     options.solver = LinearSolver::iterative;
     options.modulus_tolerance = 1e-9;
