@@ -46,27 +46,30 @@ bool shows_network(const Observation& observation) {
     return is_modulus_or_viscosity(observation) && !is_fluid(observation);
 }
 
-/// Returns for every observation the first one that shows the same G*, as G' does beside G'' of a row; else itself.
-std::vector<std::size_t> first_of_rows(const std::vector<Observation>& observations) {
-    std::map<std::pair<std::size_t, std::size_t>, std::size_t> firsts;
+/// Returns for every observation the first one with the same key; itself where it has none.
+template <class Has, class Key>
+std::vector<std::size_t> firsts(const std::vector<Observation>& observations, const Has& has_key, const Key& key_of) {
+    std::map<decltype(key_of(observations.front())), std::size_t> found;
     std::vector<std::size_t> all;
     for (std::size_t k = 0; k < observations.size(); ++k) {
         const Observation& one = observations[k];
-        all.push_back(is_modulus_or_viscosity(one) ? firsts.try_emplace({one.measurement, one.row}, k).first->second : k);
+        all.push_back(has_key(one) ? found.try_emplace(key_of(one), k).first->second : k);
     }
     return all;
 }
 
-/// Returns for every observation of the network the first one at the same frequency, of the same structures.
+/// The first one that shows the same G*, as G' does beside G'' of a row.
+std::vector<std::size_t> first_of_rows(const std::vector<Observation>& observations) {
+    return firsts(observations, is_modulus_or_viscosity, [](const Observation& one) {
+        return std::pair{one.measurement, one.row};
+    });
+}
+
+/// The first one at the same frequency, of the same structures.
 std::vector<std::size_t> first_of_frequencies(const std::vector<Observation>& observations) {
-    std::map<std::pair<double, std::size_t>, std::size_t> firsts;
-    std::vector<std::size_t> all;
-    for (std::size_t k = 0; k < observations.size(); ++k) {
-        const Observation& one = observations[k];
-        const double frequency = std::isfinite(one.angular_frequency) ? one.angular_frequency : -1.0;
-        all.push_back(shows_network(one) ? firsts.try_emplace({frequency, one.structures}, k).first->second : k);
-    }
-    return all;
+    return firsts(observations, shows_network, [](const Observation& one) {
+        return std::pair{std::isfinite(one.angular_frequency) ? one.angular_frequency : -1.0, one.structures};
+    });
 }
 
 /// Selects the mechanisms that change the material.

@@ -101,7 +101,7 @@ private:
     Eigen::MatrixXcd amplitude_factors(const Settings& given, bool exact) const;
     Eigen::VectorXcd factors_of(const Response& response, const Settings& settings, bool exact) const;
     Eigen::VectorXcd linear_responses(const Settings& settings, bool exact) const;
-    /// Of every observation the first one under conditions that are the same to a response.
+    /// Returns for every observation the first one whose conditions are the same to a response.
     const std::vector<std::size_t>& first_alike(const Response& response) const {
         return response.follows_strain ? first_of_row_ : first_of_frequency_;
     }

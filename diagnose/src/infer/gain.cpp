@@ -219,7 +219,7 @@ std::vector<std::vector<bool>> choose_folds(const Experiment& experiment, const 
 
 namespace {
 
-/// What one fold says.
+/// A fold says this of the gain.
 struct FoldGain {
     std::vector<HeldOutPrediction> predictions;
     double base_squares = 0;  ///< of the differences, relative

@@ -62,7 +62,7 @@ TEST(BondStiffening, HasTheHarmonicsOfItsForce) {
     EXPECT_NEAR(coefficient(strain, 0.02, 2, 3), -0.25 * square, 1e-9);
 }
 
-/// What grows with the strain is a level where there is one strain.
+/// At one strain alone the cause is a level, which other causes can be, too: it needs two.
 TEST(BondStiffening, IsNoCauseAtOneStrain) {
     Experiment experiment;
     experiment.measurements = {sweep({1e-3, 1e-2})};

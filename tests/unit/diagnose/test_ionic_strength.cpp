@@ -77,7 +77,7 @@ TEST(IonicStrength, AppliesWhereTheRecipeHasABarrier) {
     EXPECT_FALSE(applies(experiment_behind_barrier({})));
 }
 
-/// Of other sizes and seeds than the simulation's. At a lower potential there is no barrier either.
+/// The hidden structures have other sizes and seeds than those of the simulation. At a lower potential there is no barrier either.
 TEST(IonicStrength, HiddenInPoresIsFoundAndTiesWithAPotential) {
     DiagnosisOptions options;
     options.bootstrap = 399;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What several threads ask of one simulator.
+// Several threads ask one simulator: each result is simulated once, by itself, and is the same for any number of them.
 #include "hidden_effects.hpp"
 
 #include <gtest/gtest.h>

@@ -100,7 +100,7 @@ private:
     const std::any* in_memory(const ResultKey& key) const;
     const std::any& into_memory(const ResultKey& key, std::any value);
 
-    /// What threads share, with the simulators of remade structures, too.
+    /// All threads share this, and so do the simulators of structures that are made again.
     struct Threads {
         std::mutex mutex;  ///< of memory_ and remade_
         bool simulate = true;
