@@ -139,7 +139,7 @@ CheckedExperiment check_experiment(const std::string& path, diagnose::DiagnosisO
     errors.tables.resize(experiment.measurements.size());
     for (const diagnose::StepConversion& conversion : found.conversions) {
         errors.tables[conversion.measurement] = conversion.errors;
-        found.findings.emplace_back(conversion.sentence);
+        found.findings.emplace_back(conversion);
     }
     note_liquids(found);
     note_set_stresses(found);
@@ -154,7 +154,7 @@ CheckedExperiment check_experiment(const std::string& path, diagnose::DiagnosisO
     errors = diagnose::estimated_errors(experiment, found.noise, noise, std::move(errors));
     diagnose::reduce_waveforms(experiment, errors, noise.relative, noise.phase);
     naming(path, [&] {
-        add(diagnose::notes_on_clocks(experiment));
+        add(diagnose::doubtful_clocks(experiment));
         found.structures = check_structures(experiment);
         if (experiment.structure_sizes.empty() && experiment.material.kind == diagnose::MaterialKind::network) {
             found.findings.emplace_back("the experiment names no structures yet, which a diagnosis needs");

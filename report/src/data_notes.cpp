@@ -4,6 +4,7 @@
 #include "verdict_sentences.hpp"
 
 #include <coagula/common/checks.hpp>
+#include <coagula/common/readable.hpp>
 #include <coagula/diagnose/observable.hpp>
 
 #include <cmath>
@@ -14,10 +15,12 @@ namespace coagula::report {
 
 namespace {
 
+using diagnose::DoubtfulClock;
 using diagnose::GroupedBy;
 using diagnose::LoneTable;
 using diagnose::Outlier;
 using diagnose::ReplicateGroups;
+using diagnose::StepConversion;
 using experiment::CheckedExperiment;
 
 std::string count_text(std::size_t count, const std::string& noun) {
@@ -59,6 +62,29 @@ std::string subject_of(const ReplicateGroups& groups) {
 
 std::string sentence(const CheckedExperiment& /*checked*/, const std::string& text) {
     return text;
+}
+
+std::string sentence(const CheckedExperiment& /*checked*/, const StepConversion& found) {
+    const bool relaxation = found.kind == diagnose::MeasurementKind::stress_relaxation;
+    return found.label + ", sample '" + found.sample + "': " + std::to_string(found.rows_used) + " rows of the " +
+           (relaxation ? "stress relaxation" : std::string(diagnose::name_of(found.kind))) + ", from " +
+           with_unit(found.first_time, "s") + " to " + with_unit(found.last_time, "s") + ", are compared as G* at " +
+           std::to_string(found.frequencies) + " angular frequencies from " + with_unit(found.lowest_frequency, "rad/s") + " to " +
+           with_unit(found.highest_frequency, "rad/s") + ", where their transform has an error below 10 %" +
+           (std::isfinite(found.largest_strain)
+                ? "; the sample is taken for linear up to a strain of " + with_unit(100 * found.largest_strain, "%")
+                : "");
+}
+
+std::string sentence(const CheckedExperiment& /*checked*/, const DoubtfulClock& clock) {
+    const std::string table = clock.label + ", sample '" + clock.sample + "': ";
+    if (clock.runs_on_from.empty()) {
+        return table +
+               "neither run_order nor start says which of the runs on the sample came first, so that ageing cannot be told from "
+               "noise there; causes that act in time leave this table out";
+    }
+    return table + "its times run on from those of " + clock.runs_on_from +
+           " and are taken as those of one clock; if they are not, say clock = \"run\"";
 }
 
 std::string sentence(const CheckedExperiment& checked, const Outlier& outlier) {

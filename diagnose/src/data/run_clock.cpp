@@ -199,22 +199,18 @@ std::vector<RunTime> run_times(const Experiment& experiment) {
     return times;
 }
 
-std::vector<std::string> notes_on_clocks(const Experiment& experiment) {
+std::vector<DoubtfulClock> doubtful_clocks(const Experiment& experiment) {
     const std::vector<RunTime> times = run_times(experiment);
-    std::vector<std::string> notes;
+    std::vector<DoubtfulClock> doubtful;
     for (std::size_t k = 0; k < times.size(); ++k) {
         const Measurement& table = experiment.measurements[k];
-        const std::string place = table.label + ", sample '" + table.sample + "': ";
         if (!times[k].known) {
-            notes.push_back(place +
-                            "neither run_order nor start says which of the runs on the sample came first, so that ageing cannot be "
-                            "told from noise there; causes that act in time leave this table out");
+            doubtful.push_back({table.label, table.sample, {}});
         } else if (times[k].runs_on && !table.shared_clock) {
-            notes.push_back(place + "its times run on from those of " + experiment.measurements[times[k].before].label +
-                            " and are taken as those of one clock; if they are not, say clock = \"run\"");
+            doubtful.push_back({table.label, table.sample, experiment.measurements[times[k].before].label});
         }
     }
-    return notes;
+    return doubtful;
 }
 
 }  // namespace coagula::diagnose

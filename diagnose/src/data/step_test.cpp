@@ -259,19 +259,6 @@ Measurement sweep_of(const Measurement& table, const std::vector<TransformedRow>
     return sweep;
 }
 
-std::string sentence_on(const Measurement& table, const StepConversion& found, const StepResponse& response) {
-    const double first = response.times[0];
-    const double last = response.times[response.times.size() - 1];
-    return table.label + ", sample '" + table.sample + "': " + std::to_string(found.rows_used) + " rows of the " +
-           step_columns_of(found.kind).test + ", from " + with_unit(first, "s") + " to " + with_unit(last, "s") +
-           ", are compared as G* at " + std::to_string(found.frequencies) + " angular frequencies from " +
-           with_unit(found.lowest_frequency, "rad/s") + " to " + with_unit(found.highest_frequency, "rad/s") +
-           ", where their transform has an error below 10 %" +
-           (std::isfinite(found.largest_strain)
-                ? "; the sample is taken for linear up to a strain of " + with_unit(100 * found.largest_strain, "%")
-                : "");
-}
-
 StepConversion convert(Measurement& table, std::size_t number) {
     const double height = height_of(table);
     require_step(table, height);
@@ -291,17 +278,19 @@ StepConversion convert(Measurement& table, std::size_t number) {
                    " angular frequencies, but five are needed: it takes more decades of time, more rows in each, or less scatter");
     }
     rows = {rows.begin() + static_cast<std::ptrdiff_t>(first), rows.begin() + static_cast<std::ptrdiff_t>(end)};
-    StepConversion found{number,
-                         table.kind,
-                         used.size(),
-                         rows.size(),
-                         rows.front().angular_frequency,
-                         rows.back().angular_frequency,
-                         largest_strain(table, height, response),
-                         errors_of(table.kind, rows),
-                         {}};
-    found.sentence = sentence_on(table, found, response);
-    table = sweep_of(table, rows, found.largest_strain, response.times[response.times.size() - 1]);
+    const StepConversion found{number,
+                               table.kind,
+                               used.size(),
+                               rows.size(),
+                               rows.front().angular_frequency,
+                               rows.back().angular_frequency,
+                               largest_strain(table, height, response),
+                               errors_of(table.kind, rows),
+                               response.times[0],
+                               response.times[response.times.size() - 1],
+                               table.label,
+                               table.sample};
+    table = sweep_of(table, rows, found.largest_strain, found.last_time);
     if (found.kind == MeasurementKind::creep) {
         table.stress_controlled = table.stress_controlled.value_or(true);  // what the user states holds
     }

@@ -2,6 +2,7 @@
 #include "discrepancy.hpp"
 
 #include "noise/low_rank.hpp"
+#include "posterior_grid.hpp"
 
 #include <coagula/common/log_probability.hpp>
 #include <coagula/common/random.hpp>
@@ -131,7 +132,7 @@ Eigen::VectorXd values_at(const Inference& inference, const Start& start, const 
 }
 
 /// A parameter that a normal posterior, of which the prior cuts off a part, leads to.
-Posterior within_prior(const MechanismParameter& parameter, double value, double place, double deviation) {
+Estimate within_prior(const MechanismParameter& parameter, double value, double place, double deviation) {
     const auto [low, high] = middle_within_prior(place, deviation, 0.9);
     return {value, std::min(value, parameter.at(low)), std::max(value, parameter.at(high))};
 }

@@ -3,8 +3,11 @@
 
 #include <coagula/common/checks.hpp>
 #include <coagula/common/random.hpp>
+#include <coagula/common/special_functions.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace coagula::diagnose {
@@ -28,6 +31,7 @@ public:
             densities_[walker] = problem_.log_density(places_.col(walker));
             ++step_;
         }
+        keep_highest();
     }
 
     /// Moves every walker once: those of each half along lines through walkers of the other half.
@@ -41,9 +45,12 @@ public:
                  static_cast<double>(places_.rows() - 1) * std::log(stretch) - std::log(1 - drawn[2]));
             ++step_;
         }
+        keep_highest();
     }
 
     const Eigen::MatrixXd& places() const { return places_; }
+    /// The most probable place that a walker has seen.
+    const Eigen::VectorXd& highest() const { return highest_; }
 
 private:
     Eigen::Vector3d uniform(Eigen::Index number) const {
@@ -60,12 +67,53 @@ private:
         }
     }
 
+    void keep_highest() {
+        Eigen::Index walker = 0;
+        const double largest = densities_.maxCoeff(&walker);
+        if (largest > highest_density_) {
+            highest_density_ = largest;
+            highest_ = places_.col(walker);
+        }
+    }
+
     const Problem& problem_;
     std::uint64_t seed_;
     std::uint64_t step_ = 0;
     Eigen::MatrixXd places_;
     Eigen::VectorXd densities_;
+    double highest_density_ = -std::numeric_limits<double>::infinity();
+    Eigen::VectorXd highest_;
 };
+
+/// The number below which a part of these lies.
+double quantile_of(Eigen::VectorXd numbers, double part) {
+    const auto place = static_cast<std::ptrdiff_t>(part * static_cast<double>(numbers.size() - 1));
+    std::nth_element(numbers.begin(), numbers.begin() + place, numbers.end());
+    return numbers[place];
+}
+
+/// A posterior by the places of all draws, one per column.
+Posterior posterior_by(const Problem& problem, const Eigen::MatrixXd& places, const Eigen::VectorXd& highest) {
+    Posterior posterior{
+        .place = highest.tail(problem.axes()),
+        .node = {},
+        .log_evidence = std::numeric_limits<double>::quiet_NaN(),
+        .draws = PosteriorDraws(places.rows(), places.cols()),
+        .quantile = [places](Eigen::Index axis, double part) { return quantile_of(places.row(axis + 1).transpose(), part); },
+        .log_stiffness_quantile = {}};
+    for (Eigen::Index draw = 0; draw < places.cols(); ++draw) {
+        posterior.draws.col(draw) = problem.values_at(places.col(draw));
+    }
+    posterior.node =
+        problem.node(posterior.place, std::log(problem.values_at(highest)[0]), -std::numeric_limits<double>::infinity());
+    posterior.log_stiffness_quantile = [stiffness = Eigen::VectorXd(posterior.draws.row(0).array().log())](double part,
+                                                                                                           double further) {
+        const double middle = quantile_of(stiffness, 0.5);
+        const double away = quantile_of(stiffness, part) - middle;  // further errors add in squares to it
+        return middle + std::copysign(std::hypot(away, further * normal_quantile(part)), part - 0.5);
+    };
+    return posterior;
+}
 
 }  // namespace
 
@@ -78,14 +126,12 @@ Engine ensemble(const EnsembleOptions& options) {
         for (int sweep = 0; sweep < options.settling; ++sweep) {
             walkers.sweep();
         }
-        PosteriorDraws draws(axes, options.walkers * options.sweeps);
+        Eigen::MatrixXd places(axes, options.walkers * options.sweeps);
         for (int sweep = 0; sweep < options.sweeps; ++sweep) {
             walkers.sweep();
-            for (int walker = 0; walker < options.walkers; ++walker) {
-                draws.col(sweep * options.walkers + walker) = problem.values_at(walkers.places().col(walker));
-            }
+            places.middleCols(sweep * options.walkers, options.walkers) = walkers.places();
         }
-        return draws;
+        return posterior_by(problem, places, walkers.highest());
     };
 }
 

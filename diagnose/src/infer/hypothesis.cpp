@@ -16,17 +16,6 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double log_stiffness_range = 18.42;  ///< of eight decades
-constexpr int posterior_draws = 64;
-
-Eigen::VectorXd rounded(const std::vector<MechanismParameter>& parameters, Eigen::VectorXd place) {
-    for (std::size_t axis = 0; axis < parameters.size(); ++axis) {
-        double& along = place[static_cast<Eigen::Index>(axis)];
-        along = parameters[axis].rounded(along);
-    }
-    return place;
-}
-
 }  // namespace
 
 Model model_at(const Hypothesis& hypothesis, const Eigen::VectorXd& place, double normal_stiffness) {
@@ -192,88 +181,30 @@ bool Inference::is_active_end(const Hypothesis& hypothesis, Eigen::VectorXd plac
     return (density(low ? 0.0 : 1.0) - density(low ? inside : 1 - inside)) * beyond / inside > 1;
 }
 
-/// Draws at equal steps of the cumulated probability.
-Eigen::MatrixXd Inference::draws_from(const PosteriorGrid& grid, const std::vector<MechanismParameter>& parameters) {
-    const std::vector<double> probability = probabilities_of(grid.log_weights());
-    Eigen::MatrixXd draws(static_cast<Index>(parameters.size()) + 1, posterior_draws);
-    double below = 0;
-    std::size_t number = 0;
-    for (int draw = 0; draw < posterior_draws; ++draw) {
-        while (number + 1 < grid.nodes.size() && below + probability[number] < (draw + 0.5) / posterior_draws) {
-            below += probability[number++];
-        }
-        const double part = std::fmod((draw + 0.5) * std::numbers::phi, 1.0);  // apart from that of the node
-        const double departure = normal_quantile(part);
-        draws(0, draw) = std::exp(grid.nodes[number].log_stiffness + grid.nodes[number].deviation * departure);
-        for (std::size_t axis = 0; axis < parameters.size(); ++axis) {
-            const auto row = static_cast<Index>(axis);
-            draws(row + 1, draw) = parameters[axis].at(grid.places[number][row]);
-        }
-    }
-    return draws;
+Fit Inference::fit(const Hypothesis& hypothesis, const Engine& engine) const {
+    return apart([&](const Inference& own) { return own.fit_here(hypothesis, engine); });
 }
 
-/// The highest of the nodes, or between them where a parabola through these leads higher.
-std::pair<Eigen::VectorXd, Node> Inference::most_probable(const Hypothesis& hypothesis, const PosteriorGrid& grid) const {
+Fit Inference::fit_here(const Hypothesis& hypothesis, const Engine& engine) const {
     const std::vector<MechanismParameter> parameters = parameters_of(hypothesis);
-    const std::size_t best = grid.best();
-    const auto at = [&](const Eigen::VectorXd& place) {
-        return place == grid.places[best] ? grid.nodes[best]
-                                          : best_stiffness(model_at(hypothesis, place, 1), grid.nodes[best].log_stiffness);
-    };
-    const Eigen::VectorXd at_node = rounded(parameters, grid.places[best]);
-    const std::optional<Eigen::VectorXd> peak = parameters.empty() ? std::nullopt : grid.peak();
-    const Eigen::VectorXd between = peak ? rounded(parameters, *peak) : at_node;
-    const Node node = at(at_node);
-    if (between == at_node) {
-        return {at_node, node};
-    }
-    const Node higher = at(between);
-    return higher.log_weight > node.log_weight ? std::pair(between, higher) : std::pair(at_node, node);
-}
-
-Problem Inference::problem(const Hypothesis& hypothesis) const {
-    const double lowest = log_level_ - 0.5 * log_stiffness_range;
-    const auto model = [hypothesis, lowest](const Eigen::VectorXd& place) {
-        return model_at(hypothesis, place.tail(place.size() - 1), std::exp(lowest + place[0] * log_stiffness_range));
-    };
-    std::vector<MechanismParameter> priors{
-        {"normal_stiffness", "N/m", std::exp(lowest), std::exp(lowest + log_stiffness_range), true}};
-    const std::vector<MechanismParameter> of_causes = parameters_of(hypothesis);
-    priors.insert(priors.end(), of_causes.begin(), of_causes.end());
-    return {.priors = std::move(priors),
-            .predict = [this, model](const Eigen::VectorXd& place) { return prediction(model(place)); },
-            .log_density =
-                [this, model](const Eigen::VectorXd& place) {
-                    const Model here = model(place);
-                    return density_at(here, std::log(here.settings.normal_stiffness)) + std::log(log_stiffness_range);
-                }};
-}
-
-Fit Inference::fit(const Hypothesis& hypothesis) const {
-    return apart([&](const Inference& own) { return own.fit_here(hypothesis); });
-}
-
-Fit Inference::fit_here(const Hypothesis& hypothesis) const {
-    const std::vector<MechanismParameter> parameters = parameters_of(hypothesis);
-    const PosteriorGrid grid = posterior(hypothesis);
-    const auto [place, node] = most_probable(hypothesis, grid);
-    const double stiffness = std::exp(node.log_stiffness);
+    const Posterior posterior = engine(problem(hypothesis));
+    const Eigen::VectorXd& place = posterior.place;
+    const double stiffness = std::exp(posterior.node.log_stiffness);
     Fit fit{.hypothesis = hypothesis,
             .model = model_at(hypothesis, place, stiffness),
             .parameters = {},
-            .log_density = node.log_density,
-            .log_evidence = grid.log_evidence(),
-            .draws = draws_from(grid, parameters)};
+            .log_density = posterior.node.log_density,
+            .log_evidence = posterior.log_evidence,
+            .draws = posterior.draws};
     for (std::size_t axis = 0; axis < parameters.size(); ++axis) {
         const auto row = static_cast<Index>(axis);
         const double value = parameters[axis].at(place[row]);
         fit.active_end.push_back(is_active_end(hypothesis, place, row, stiffness));
-        fit.parameters.push_back({value, std::min(value, parameters[axis].at(grid.quantile(row, 0.05))),
-                                  std::max(value, parameters[axis].at(grid.quantile(row, 0.95)))});
+        fit.parameters.push_back({value, std::min(value, parameters[axis].at(posterior.quantile(row, 0.05))),
+                                  std::max(value, parameters[axis].at(posterior.quantile(row, 0.95)))});
     }
     const double of_structures = level_is_open() ? forward_.level_error() : 0.0;
-    const auto quantile = [&](double part) { return std::exp(grid.log_stiffness_quantile(part, of_structures)); };
+    const auto quantile = [&](double part) { return std::exp(posterior.log_stiffness_quantile(part, of_structures)); };
     fit.stiffness = {stiffness, std::min(stiffness, quantile(0.05)), std::max(stiffness, quantile(0.95))};
     return fit;
 }

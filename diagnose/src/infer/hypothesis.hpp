@@ -4,7 +4,6 @@
 
 #include "chain/forward.hpp"
 #include "noise/error_model.hpp"
-#include "posterior_grid.hpp"
 #include "problem.hpp"
 
 #include <coagula/diagnose/model.hpp>
@@ -13,27 +12,19 @@
 
 #include <functional>
 #include <limits>
-#include <optional>
 #include <utility>
 #include <vector>
 
 namespace coagula::diagnose {
 
-/// A parameter's posterior.
-struct Posterior {
-    double value;  ///< most probable
-    double low;    ///< 5 % and 95 % quantile
-    double high;
-};
-
 /// A hypothesis fitted to data.
 struct Fit {
     Hypothesis hypothesis;
     Model model;                        ///< most probable
-    std::vector<Posterior> parameters;  ///< of the mechanisms
+    std::vector<Estimate> parameters;   ///< of the mechanisms: most probable value, 5 and 95 % quantile
     std::vector<bool> active_end = {};  ///< of each parameter: its most probable value lies at an end of the prior, beyond which
                                         ///< the data would have it
-    Posterior stiffness{};              ///< of a particle [N/m]
+    Estimate stiffness{};               ///< of a particle [N/m]
     double log_density = 0;             ///< of the data at `model`
     double log_evidence = 0;            ///< of the data, all parameters integrated over their priors
     Eigen::MatrixXd draws;              ///< normal stiffness and parameters x equally probable draws from the posterior
@@ -43,6 +34,9 @@ struct Fit {
     /// Some models of the posterior, evenly spread over its draws.
     std::vector<Model> drawn(Index count) const;
 };
+
+/// Range of the logarithm of an unknown stiffness: eight decades.
+inline constexpr double log_stiffness_range = 18.42;
 
 /// Steps after which errors of a prediction are found, or do not happen.
 inline constexpr int many_steps = 20;
@@ -55,16 +49,16 @@ inline Eigen::VectorXd shown(const Prediction& prediction, const Eigen::VectorXd
 /// A hypothesis at a place of its prior.
 Model model_at(const Hypothesis& hypothesis, const Eigen::VectorXd& place, double normal_stiffness);
 
-/// Evaluates the evidence by quadrature over the prior of the mechanisms' parameters, on a grid that closes in on where the
-/// posterior is (along its principal axes where it is a narrow ridge), with the Laplace approximation for the stiffness, which
-/// scales the moduli. The prior of the stiffness is normal in its logarithm where the experiment knows it, else uniform over
-/// eight decades about that which the level of the data asks for.
+/// Says how probable the data are by a model with given parameters, as a problem for an engine, and makes a fit of what that finds.
+/// The prior of the stiffness, which scales the moduli, is normal in its logarithm where the experiment knows it, else uniform
+/// over eight decades about that which the level of the data asks for.
 class Inference {
 public:
     Inference(const Forward& forward, const ErrorModel& errors)
         : forward_(forward), errors_(errors), scales_(shows_scale()), log_level_(log_level()) {}
 
-    Fit fit(const Hypothesis& hypothesis) const;
+    /// @param engine that gives an evidence.
+    Fit fit(const Hypothesis& hypothesis, const Engine& engine = grid()) const;
 
     /// Returns what `work` makes of a copy of this that no other thread uses and that remembers nothing for later.
     template <class Work>
@@ -73,7 +67,7 @@ public:
         return work(Inference(*this, forward));
     }
 
-    /// Returns the problem that `fit` solves by its grid, for any engine. It refers to this object, which must outlive it.
+    /// Returns the problem that `fit` gives to its engine. It refers to this object, which must outlive it.
     Problem problem(const Hypothesis& hypothesis) const;
 
     /// Derivatives of the whitened prediction by the logarithm of the stiffness, the parameters' places, the sample effects and
@@ -118,13 +112,8 @@ private:
           scales_(other.scales_),
           last_errors_(other.last_errors_),
           log_level_(other.log_level_) {}
-    Fit fit_here(const Hypothesis& hypothesis) const;
-    class ProjectedResiduals;
-    static Eigen::MatrixXd draws_from(const PosteriorGrid& grid, const std::vector<MechanismParameter>& parameters);
-    PosteriorGrid posterior(const Hypothesis& hypothesis) const;
-    std::optional<PosteriorGrid> grid_about_mode(const Hypothesis& hypothesis, Eigen::VectorXd place,
-                                                 const EvaluateNode& evaluate) const;
-    std::pair<Eigen::VectorXd, Node> most_probable(const Hypothesis& hypothesis, const PosteriorGrid& grid) const;
+    Fit fit_here(const Hypothesis& hypothesis, const Engine& engine) const;
+    ProjectedResidual projected_residual(const Hypothesis& hypothesis, const Eigen::VectorXd& place, double log_stiffness) const;
     Node highest_of_base(const Node& found) const;
     bool is_active_end(const Hypothesis& hypothesis, Eigen::VectorXd place, Index axis, double stiffness) const;
     double log_level(Model model = {}) const;

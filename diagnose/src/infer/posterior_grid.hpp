@@ -2,6 +2,8 @@
 // Nodes where a posterior is evaluated.
 #pragma once
 
+#include "problem.hpp"
+
 #include <Eigen/Core>
 
 #include <functional>
@@ -13,14 +15,6 @@ namespace coagula::diagnose {
 
 /// Distance from the ends of a prior, 0 .. 1, that fits by straight lines keep.
 inline constexpr double prior_edge = 1e-3;
-
-/// What is known at one place of the prior, 0 .. 1 along each axis, the stiffness integrated out.
-struct Node {
-    double log_stiffness = 0;
-    double deviation = 0;    ///< of log_stiffness
-    double log_density = 0;  ///< at the best stiffness
-    double log_weight = 0;   ///< stiffness integrated out
-};
 
 using EvaluateNode = std::function<Node(const Eigen::VectorXd& place)>;
 

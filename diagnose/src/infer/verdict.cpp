@@ -155,7 +155,7 @@ double widest_interval(const Fit& fit) {
     for (const Mechanism* mechanism : fit.hypothesis) {
         double narrowest = std::numeric_limits<double>::infinity();
         for (const MechanismParameter& parameter : mechanism->parameters) {
-            const Posterior& found = fit.parameters[next++];
+            const Estimate& found = fit.parameters[next++];
             narrowest = std::min(narrowest, (parameter.place_of(found.high) - parameter.place_of(found.low)) / 0.9);
         }
         widest_cause = std::max(widest_cause, narrowest);
@@ -244,7 +244,7 @@ bool is_level_alone(const Inference& inference, const Fit& winner) {
 
 Cause cause_of(const Fit& fit, const Inference& inference) {
     Cause cause{.set = fit.hypothesis, .log_evidence = fit.log_evidence, .model = fit.model, .draws = fit.draws};
-    const auto add = [&](const std::string& name, const std::string& unit, const Posterior& posterior, bool at_end = false) {
+    const auto add = [&](const std::string& name, const std::string& unit, const Estimate& posterior, bool at_end = false) {
         cause.parameters.push_back({name, unit, posterior.value, posterior.low, posterior.high, at_end});
     };
     const bool newtonian = inference.forward().experiment().material.kind == MaterialKind::newtonian;

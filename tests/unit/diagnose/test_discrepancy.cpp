@@ -114,7 +114,7 @@ TEST(Discrepancy, LeadsTheParametersToWhereTheyStay) {
     const Fit without = inference.fit({find_mechanism("tool-inertia")});
     const Discrepancy first = find_discrepancy(inference, without, departures);
     const Discrepancy again = find_discrepancy(inference, first.fit, departures);
-    const Posterior& beside = first.fit.parameters.front();
+    const Estimate& beside = first.fit.parameters.front();
     const double half = 0.5 * (beside.high - beside.low);
     EXPECT_GT(std::abs(without.parameters.front().value - beside.value), 0.5 * half);
     EXPECT_NEAR(again.fit.parameters.front().value, beside.value, 0.1 * half);
@@ -135,7 +135,7 @@ TEST(Discrepancy, OfASmoothMaterialLeavesNoIntervalOfZeroWidth) {
     for (const char* cause : {"tool-inertia", "bearing-damping"}) {
         const Fit without = inference.fit({find_mechanism(cause)});
         const Discrepancy beside = find_discrepancy(inference, without, smooth_departures(data.observations));
-        const Posterior& parameter = beside.fit.parameters.front();
+        const Estimate& parameter = beside.fit.parameters.front();
         EXPECT_LT(parameter.low, parameter.high) << cause;
         EXPECT_LE(parameter.low, parameter.value) << cause;
         EXPECT_GE(parameter.high, parameter.value) << cause;

@@ -149,18 +149,23 @@ TEST(Evidence, OfTheGridIsThatOfAnEnsemble) {
     const Inference& inference = sweep.inference;
     const Hypothesis losses{find_mechanism("contact-loss")};
     const Fit fit = inference.fit(losses);
+    const Fit drawn = inference.fit(losses, ensemble());
     const Problem problem = inference.problem(losses);
-    const PosteriorDraws draws = ensemble()(problem);
+    const PosteriorDraws& draws = drawn.draws;
     ASSERT_EQ(draws.rows(), 3);
     // 500 sweeps of which one in some ten is independent: 600 draws, whose parts are known to 0.01 at the ends. Of an exponent that
     // the data would have at the end of its prior, the interval of the grid reaches that end.
     for (Index parameter = 0; parameter < 3; ++parameter) {
         const auto number = static_cast<std::size_t>(parameter);
-        const Posterior& by_grid = parameter == 0 ? fit.stiffness : fit.parameters[number - 1];
+        const Estimate& by_grid = parameter == 0 ? fit.stiffness : fit.parameters[number - 1];
         const MechanismParameter& prior = problem.priors[number];
         EXPECT_NEAR(part_below(draws, parameter, by_grid.low), 0.05, 0.04) << prior.name;
         EXPECT_NEAR(part_below(draws, parameter, by_grid.high), by_grid.high < 0.99 * prior.high ? 0.95 : 1.0, 0.04) << prior.name;
     }
+    EXPECT_TRUE(std::isnan(drawn.log_evidence)) << "an ensemble gives none";
+    EXPECT_GT(drawn.log_density, fit.log_density - 0.3) << "one of 25 600 places is near the mode";
+    EXPECT_NEAR(drawn.stiffness.low, fit.stiffness.low, 0.2 * (fit.stiffness.high - fit.stiffness.low));
+    EXPECT_NEAR(drawn.parameters[0].high, fit.parameters[0].high, 0.2 * (fit.parameters[0].high - fit.parameters[0].low));
 }
 
 /// By brute force, errors of rows known from few degrees of freedom, so that the density has long tails.

@@ -43,6 +43,33 @@ TEST(DataNotes, GroupsAreToldByWhatTheyDifferIn) {
     EXPECT_NE(sentence_on(day).find("tables of different days differ by"), std::string::npos);
 }
 
+TEST(DataNotes, AClockWithoutAnOrderHidesAgeing) {
+    EXPECT_NE(sentence_on(diagnose::DoubtfulClock{"sweep of B", "B", {}}).find("ageing cannot be told from noise"),
+              std::string::npos);
+    EXPECT_NE(sentence_on(diagnose::DoubtfulClock{"sweep of B", "B", "sweep of A"}).find("run on from those of sweep of A"),
+              std::string::npos);
+}
+
+TEST(DataNotes, AStepTestIsToldByItsFrequencies) {
+    const diagnose::StepConversion conversion{.measurement = 0,
+                                              .kind = diagnose::MeasurementKind::stress_relaxation,
+                                              .rows_used = 30,
+                                              .frequencies = 7,
+                                              .lowest_frequency = 0.01,
+                                              .highest_frequency = 10,
+                                              .largest_strain = 0.002,
+                                              .errors = {},
+                                              .first_time = 0.1,
+                                              .last_time = 100,
+                                              .label = "step of B",
+                                              .sample = "B"};
+    EXPECT_EQ(
+        sentence_on(conversion),
+        "step of B, sample 'B': 30 rows of the stress relaxation, from 0.1 s to 100 s, are compared as G* at 7 angular "
+        "frequencies from 0.01 rad/s to 10 rad/s, where their transform has an error below 10 %; the sample is taken for linear "
+        "up to a strain of 0.2 %");
+}
+
 TEST(DataNotes, AnOutlierIsARowOrASample) {
     EXPECT_EQ(sentence_on(diagnose::Outlier{0, 4, 10, "10 times as large as"}),
               "sweep of B, sample 'B': row 5 is left out as an outlier, |G*| is 10 times as large as in the rows beside it");

@@ -43,7 +43,8 @@ struct Replicates {
 /// N or more, what follows the force is taken out of their values, by least squares. The measurements must have passed check_data.
 std::vector<Replicates> find_replicates(const std::vector<Measurement>& measurements);
 
-/// A standard deviation with its 95 % profile-likelihood interval; low = high where it was not estimated.
+/// A number with its interval. Of a standard deviation it is the 95 % profile-likelihood one, and low = high where it was not
+/// estimated; of a cause's parameter it is the 90 % one of the posterior.
 struct Estimate {
     double value = 0;
     double low = 0;

@@ -38,7 +38,12 @@ double time_in(const Measurement& table, std::size_t row);
 /// The rows of a table in the order in which they were measured: that of its times, else that of the table.
 std::vector<std::size_t> rows_in_time(const Measurement& table);
 
-/// Notes about these clocks, in sentences: clocks that run on, and runs whose order nobody says.
-std::vector<std::string> notes_on_clocks(const Experiment& experiment);
+/// A table whose time is a guess.
+struct DoubtfulClock {
+    std::string label;
+    std::string sample;
+    std::string runs_on_from;  ///< label of the run from which its clock seems to run on; empty: nothing says which run came first
+};
+std::vector<DoubtfulClock> doubtful_clocks(const Experiment& experiment);
 
 }  // namespace coagula::diagnose

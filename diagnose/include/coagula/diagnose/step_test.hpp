@@ -21,7 +21,10 @@ struct StepConversion {
     double highest_frequency;       ///< [rad/s]
     double largest_strain = unset;  ///< up to which the response is taken for linear; unset: not known
     TableErrors errors;             ///< of the frequency sweep
-    std::string sentence;
+    double first_time;              ///< of the rows used [s]
+    double last_time;
+    std::string label;  ///< of the table
+    std::string sample;
 };
 
 /// Adds the response over the height of the step where a table of a step test has both: the compliance of a creep, the modulus of a

@@ -8,6 +8,7 @@
 #include <coagula/diagnose/noise.hpp>
 #include <coagula/diagnose/outliers.hpp>
 #include <coagula/diagnose/replicate_groups.hpp>
+#include <coagula/diagnose/run_clock.hpp>
 #include <coagula/diagnose/step_test.hpp>
 #include <coagula/experiment/experiment_file.hpp>
 #include <coagula/experiment/experiment_structures.hpp>
@@ -19,7 +20,8 @@
 namespace coagula::experiment {
 
 /// Something that a reader should know about the data, where it is no sentence yet.
-using Finding = std::variant<std::string, diagnose::Outlier, diagnose::LoneTable, diagnose::ReplicateGroups>;
+using Finding = std::variant<std::string, diagnose::StepConversion, diagnose::DoubtfulClock, diagnose::Outlier, diagnose::LoneTable,
+                             diagnose::ReplicateGroups>;
 
 struct CheckedExperiment {
     ExperimentFile file;  ///< ready to be diagnosed: step tests as frequency sweeps, waveforms as harmonics
