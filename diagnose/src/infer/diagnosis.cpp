@@ -172,11 +172,10 @@ Diagnosis diagnose(const Experiment& experiment, Simulator& simulator, const Dia
     diagnosis.misfits = localise(inference, base, detection);
 
     const Comparison comparison = compare(base, possible, inference, options, Effort::whole, progress);
-    const Compared& winner = comparison.all[comparison.winner];
     progress.update("measuring the gain", 0.9);
     diagnosis.gain = measure_gain(data, folds, experiment, simulator, possible, options);
     judge(comparison, inference, possible, options, diagnosis);
-    predict_rows(data, inference, base.model, winner.fit.model, folds, diagnosis);
+    predict_rows(data, inference, base.model, best_cause(diagnosis)->model, folds, diagnosis);
     predict_others(inference, diagnosis);
     if (diagnosis.verdict == Verdict::tied || diagnosis.verdict == Verdict::kind_only) {
         diagnosis.proposals = proposals_for(diagnosis, comparison.all, inference, simulator, options.seed);
