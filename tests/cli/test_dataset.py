@@ -4,6 +4,7 @@
 import hashlib
 import os
 import random
+import resource
 import shutil
 import signal
 import subprocess
@@ -236,6 +237,18 @@ class Runs(ProgramTest):
         self.assertEqual(found["failed"], 0)
         self.assertEqual(values(self.folder / "set.h5"), values(self.folder / "whole.h5"))
         self.assertEqual(sorted(name for name in os.listdir(self.folder) if not name.startswith(".")), ["set.h5", "sweep.toml", "whole.h5"])
+
+    def test_full_disk_loses_nothing(self):
+        self.run_set("whole.h5")
+        size = (self.folder / "whole.h5").stat().st_size
+        self.assertGreater(size, 2**20, "the set is built in steps of a megabyte")
+        for room in (size // 2, size - 1):
+            done = subprocess.run([PROGRAM, "dataset", "run", "sweep.toml", "-o", "set.h5", "--quiet"], cwd=self.folder, text=True,
+                                  capture_output=True, preexec_fn=lambda room=room: resource.setrlimit(resource.RLIMIT_FSIZE, (room, room)))
+            self.assertEqual((done.returncode, done.stderr), (1, "coagula: cannot write set.h5: File too large\n"))
+            self.assertEqual(sorted(os.listdir(self.folder)), ["set.h5.parts", "sweep.toml", "whole.h5"])
+        self.assertEqual(self.run_set()["computed"], 0)
+        self.assertEqual(checksum(self.folder / "set.h5"), checksum(self.folder / "whole.h5"))
 
     def test_ids_stay_in_later_versions(self):
         """Options that a sweep does not give have no part in them, so that a new one does not make all structures anew."""

@@ -28,11 +28,29 @@ OutputFile::OutputFile(const std::string& path, bool overwrite) : place_(path), 
     }
 }
 
+OutputFile::~OutputFile() = default;
+
 void OutputFile::publish(std::span<const char> bytes) {
     TemporaryFile file(place_);
     file.write(bytes);
     file.keep_owner_and_mode();
     file.sync(bytes);
+    publish(file);
+}
+
+int OutputFile::open_in_place() {
+    in_place_ = std::make_unique<TemporaryFile>(place_);
+    return in_place_->descriptor();
+}
+
+void OutputFile::publish_in_place(std::size_t size) {
+    in_place_->keep_owner_and_mode();
+    in_place_->finish(size);
+    publish(*in_place_);
+    in_place_.reset();
+}
+
+void OutputFile::publish(TemporaryFile& file) {
     file.rename(overwrite_);
     place_.sync();
 }

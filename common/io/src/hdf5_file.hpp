@@ -2,11 +2,12 @@
 // A thin layer over the HDF5 C API: handles that close themselves, typed arrays, attributes, sentences instead of error stacks.
 #pragma once
 
+#include "file_image.hpp"
+
 #include <hdf5.h>
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <memory>
 #include <span>
 #include <string>
@@ -77,22 +78,23 @@ struct NumberType<std::uint8_t> {
     static hid_t file() { return H5T_STD_U8LE; }
 };
 
-/// The bytes of a file that was built in memory.
-using MemoryImage = std::unique_ptr<char, decltype(&std::free)>;
-
 /// What a dataset holds, as far as coagula reads it.
 enum class Content { real, integer, text, other };
 
 /// An open file. What cannot be read throws InputError ("FILE: OBJECT rule"); a new file is built in memory, so that neither a full
-/// disk nor an interruption can leave a part of it behind, and is written as a whole.
+/// disk nor an interruption can leave a part of it behind, and is written as a whole; one that is too large for that, in a hidden
+/// file.
 class File {
 public:
     /// Opens and inspects a file. HDF5 crashes on some damaged files, so this belongs into run_in_child.
     static File open(const std::string& path);
-    static File create(const std::string& path);
+    /// @param descriptor of an empty file that is to hold it, which must stay open; none: memory.
+    static File create(const std::string& path, int descriptor = -1);
 
     /// Closes a created file; its bytes, which last as long as this object.
     std::span<const char> close();
+    /// Throws std::runtime_error ("cannot write FILE: reason") where there was no room for what was written.
+    void require_room() const;
 
     [[noreturn]] void fail(const std::string& object, const std::string& rule) const;
 
@@ -161,7 +163,7 @@ public:
     static std::size_t count(const Shape& shape);
 
 private:
-    File(std::string path, std::unique_ptr<MemoryImage> image, Handle id)
+    File(std::string path, std::unique_ptr<FileImage> image, Handle id)
         : path_(std::move(path)), image_(std::move(image)), id_(std::move(id)) {}
     void inspect() const;
     void require_plausible(const std::string& object, std::size_t bytes) const;
@@ -178,8 +180,8 @@ private:
     void write_attribute(const std::string& object, const std::string& name, hid_t type, const Handle& space, const void* values);
 
     std::string path_;
-    std::size_t length_ = 0;              ///< of an opened file [byte]
-    std::unique_ptr<MemoryImage> image_;  ///< of a created file, filled when it is closed; outlives the handle
+    std::size_t length_ = 0;            ///< of an opened file [byte]
+    std::unique_ptr<FileImage> image_;  ///< of a created file; outlives the handle
     Handle id_;
 };
 

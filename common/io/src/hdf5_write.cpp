@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The half of hdf5::File that writes.
-#include <cstdlib>
 #include <cstring>
 #include <iterator>
 #include <stdexcept>
+#include <system_error>
 
 #include "hdf5_file.hpp"
 #include "layout.hpp"
@@ -13,29 +13,22 @@ namespace coagula::io::hdf5 {
 namespace {
 
 // The callbacks by which HDF5 handles the memory of a file that lies there. They leave it behind when the file is closed.
-// NOLINTBEGIN(cppcoreguidelines-no-malloc,cppcoreguidelines-owning-memory): HDF5 asks for malloc, realloc and free by these
 
-void* allocate_image(std::size_t size, H5FD_file_image_op_t /*why*/, void* /*image*/) {
-    return std::malloc(size);
+void* allocate_image(std::size_t size, H5FD_file_image_op_t /*why*/, void* image) {
+    return static_cast<FileImage*>(image)->resize(size);
 }
 
 void* copy_image(void* to, const void* from, std::size_t size, H5FD_file_image_op_t /*why*/, void* /*image*/) {
     return std::memcpy(to, from, size);
 }
 
-void* resize_image(void* memory, std::size_t size, H5FD_file_image_op_t /*why*/, void* /*image*/) {
-    return std::realloc(memory, size);
+void* resize_image(void* /*memory*/, std::size_t size, H5FD_file_image_op_t /*why*/, void* image) {
+    return static_cast<FileImage*>(image)->resize(size);
 }
 
-herr_t leave_image(void* memory, H5FD_file_image_op_t why, void* image) {
-    if (why == H5FD_FILE_IMAGE_OP_FILE_CLOSE) {
-        static_cast<MemoryImage*>(image)->reset(static_cast<char*>(memory));
-    } else {
-        std::free(memory);
-    }
+herr_t leave_image(void* /*memory*/, H5FD_file_image_op_t /*why*/, void* /*image*/) {
     return 0;
 }
-// NOLINTEND(cppcoreguidelines-no-malloc,cppcoreguidelines-owning-memory)
 
 void* share_image(void* image) {
     return image;
@@ -45,8 +38,8 @@ herr_t forget_image(void* /*image*/) {
     return 0;
 }
 
-Handle file_access_in_memory(MemoryImage& image) {
-    constexpr std::size_t growth = std::size_t{1} << 24;
+Handle file_access_in_memory(FileImage& image) {
+    constexpr std::size_t growth = std::size_t{1} << 20;
     Handle properties(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_fapl_core(properties.get(), growth, false);
     H5Pset_libver_bounds(properties.get(), H5F_LIBVER_V18, H5F_LIBVER_V18);  // object headers carry checksums
@@ -144,28 +137,36 @@ void require_written(bool done, const std::string& path, const std::string& obje
 
 }  // namespace
 
-File File::create(const std::string& path) {
+File File::create(const std::string& path, int descriptor) {
     silence_errors();
-    auto image = std::make_unique<MemoryImage>(nullptr, std::free);
+    auto image = std::make_unique<FileImage>(descriptor);
     const Handle access = file_access_in_memory(*image);
     const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
     H5Pset_obj_track_times(creation.get(), false);
     Handle id(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose);
-    require_written(static_cast<bool>(id), path, "a new file");
     File file(path, std::move(image), std::move(id));
+    file.require_room();
+    require_written(static_cast<bool>(file.id_), path, "a new file");
     file.length_ = SIZE_MAX;  // what is read from it was written here
     return file;
+}
+
+void File::require_room() const {
+    if (image_->error() != 0) {
+        throw std::runtime_error("cannot write " + path_ + ": " + std::generic_category().message(image_->error()));
+    }
 }
 
 std::span<const char> File::close() {
     require_written(H5Fflush(id_.get(), H5F_SCOPE_GLOBAL) >= 0, path_, "to flush");
     id_ = Handle();
-    require_written(static_cast<bool>(*image_), path_, "to close");
+    require_room();
+    require_written(image_->data() != nullptr, path_, "to close");
     // The end of the file by its superblock (HDF5 File Format Specification, version 2: bytes 28 to 35); the memory is larger.
     // H5Fget_file_image is of no use: the superblock that it gives has a wrong checksum in HDF5 1.10.
     std::uint64_t size = 0;
-    std::memcpy(&size, image_->get() + 28, sizeof size);
-    return {image_->get(), size};
+    std::memcpy(&size, image_->data() + 28, sizeof size);
+    return {image_->data(), size};
 }
 
 void File::create_group(const std::string& group) {

@@ -137,6 +137,40 @@ std::string sum_of(const File& file, const std::string& group) {
     return datasets_sha256(all);
 }
 
+/// Card, sweep, index and structures.
+void fill(File& file, const SetHead& head, const std::vector<SetStructure>& structures) {
+    file.set_attribute("/", "format", std::string("coagula data set"));
+    for (const auto& [name, text] : head.card) {
+        file.set_attribute("/", name, text);
+    }
+    file.write_text(sweep_text, head.sweep);
+    file.describe(sweep_text, "1", "the sweep file from which the set was made");
+    file.create_group(layout::provenance);
+    for (const auto& [name, text] : head.provenance) {
+        file.write_text(std::string(layout::provenance) + "/" + name, text);
+    }
+    file.create_group(index_group);
+    for (const SetColumn& column : head.index) {
+        write_column(file, column);
+    }
+    std::vector<std::string> names;
+    std::transform(head.index.begin(), head.index.end(), std::back_inserter(names), [](const auto& column) { return column.name; });
+    file.set_attribute(index_group, "columns", names);
+    file.create_group(structures_group);
+    std::map<std::string, File> sets;  // which stay open; files of one structure do not
+    for (const SetStructure& structure : structures) {
+        file.require_room();
+        if (structure.group == "/") {
+            file.copy_group_from(File::open(structure.file), "/", group_of_structure(structure.id));
+            continue;
+        }
+        const auto opened = sets.find(structure.file);
+        const File& set =
+            opened != sets.end() ? opened->second : sets.emplace(structure.file, File::open(structure.file)).first->second;
+        file.copy_group_from(set, structure.group, group_of_structure(structure.id));
+    }
+}
+
 }  // namespace
 
 std::size_t SetColumn::size() const {
@@ -160,38 +194,9 @@ std::string group_of_structure(const std::string& id) {
 
 void write_set(const std::string& path, const SetHead& head, const std::vector<SetStructure>& structures, bool overwrite) {
     OutputFile output(path, overwrite);
-    File file = File::create(path);
-    file.set_attribute("/", "format", std::string("coagula data set"));
-    for (const auto& [name, text] : head.card) {
-        file.set_attribute("/", name, text);
-    }
-    file.write_text(sweep_text, head.sweep);
-    file.describe(sweep_text, "1", "the sweep file from which the set was made");
-    file.create_group(layout::provenance);
-    for (const auto& [name, text] : head.provenance) {
-        file.write_text(std::string(layout::provenance) + "/" + name, text);
-    }
-    file.create_group(index_group);
-    for (const SetColumn& column : head.index) {
-        write_column(file, column);
-    }
-    std::vector<std::string> names;
-    std::transform(head.index.begin(), head.index.end(), std::back_inserter(names), [](const auto& column) { return column.name; });
-    file.set_attribute(index_group, "columns", names);
-    file.create_group(structures_group);
-    std::map<std::string, File> sets;  // which stay open; files of one structure do not
-    for (const SetStructure& structure : structures) {
-        if (structure.group == "/") {
-            file.copy_group_from(File::open(structure.file), "/", group_of_structure(structure.id));
-            continue;
-        }
-        const auto opened = sets.find(structure.file);
-        const File& set =
-            opened != sets.end() ? opened->second : sets.emplace(structure.file, File::open(structure.file)).first->second;
-        file.copy_group_from(set, structure.group, group_of_structure(structure.id));
-    }
-    sets.clear();
-    output.publish(file.close());
+    File file = File::create(path, output.open_in_place());
+    fill(file, head, structures);
+    output.publish_in_place(file.close().size());
 }
 
 bool is_set(const std::string& path) {

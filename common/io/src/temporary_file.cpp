@@ -90,6 +90,12 @@ void TemporaryFile::write(std::span<const char> bytes) {
     }
 }
 
+void TemporaryFile::finish(std::size_t size) {
+    if (ftruncate(descriptor_, static_cast<off_t>(size)) != 0 || fsync(descriptor_) != 0) {
+        place_.fail();
+    }
+}
+
 /// Where the group cannot be kept, another one gets no more than everybody has.
 void TemporaryFile::keep_owner_and_mode() {
     struct stat old {};

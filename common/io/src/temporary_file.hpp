@@ -5,6 +5,7 @@
 #include <coagula/io/output_place.hpp>
 #include <coagula/io/unfinished_file.hpp>
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,7 +24,11 @@ public:
     TemporaryFile& operator=(const TemporaryFile&) = delete;
     ~TemporaryFile();
 
+    /// For reading and writing.
+    int descriptor() const { return descriptor_; }
     void write(std::span<const char> bytes);
+    /// Leaves so many bytes, and brings them to the disk.
+    void finish(std::size_t size);
     /// The file that is replaced gives it its mode and, as far as allowed, its owner.
     void keep_owner_and_mode();
     /// Brings the bytes to the disk, and reads them back.
