@@ -155,17 +155,28 @@ bool address_space_is_limited() {
     return getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
 }
 
+/// Memory in pages of 2 MB, from one heap that grows in large steps and keeps what is free: of the small pages of which a stage
+/// asks the system again and again, each costs as much as thousands of operations (by glibc's manual, "Memory Allocation
+/// Tunables").
+constexpr const char* heap_settings =
+    "glibc.malloc.hugetlb=1:glibc.malloc.mmap_max=0:glibc.malloc.top_pad=16777216:glibc.malloc.trim_threshold=1099511627776";
+
 /// Threads that wait for each other shall spin for some microseconds only before they sleep: on a machine that also does other
 /// work a spinning thread keeps its partner from the processor, and the void expansion took four times as long. No library shall
 /// take more threads than were asked for or can be had: CHOLMOD's loops ask for four of their own. OpenBLAS shall not begin with a
 /// thread and a buffer for each processor, for which it would wait for ever where there is no room. The libraries read their
 /// environment before main, so the program starts itself once more; if that fails, it goes on as it is.
-void restart_with_thread_settings(char** argv) {
+void restart_with_settings(char** argv) {
     const std::string word = threads_asked_for(argv);
     // libgomp has a sentence of its own for what is no number of threads; the program says it once.
     const bool number = !word.empty() && word.find_first_not_of("0123456789") == std::string::npos && word.size() < 5;
     const int asked = number ? std::max(1, std::stoi(word)) : std::numeric_limits<int>::max();
     bool changed = set("OPENBLAS_NUM_THREADS", "1");
+    const char* tunables = std::getenv("GLIBC_TUNABLES");
+    const std::string others = tunables == nullptr || *tunables == '\0' ? "" : std::string(tunables) + ':';
+    if (others.find("glibc.malloc.") == std::string::npos) {
+        changed = set("GLIBC_TUNABLES", others + heap_settings) || changed;
+    }
     if (std::getenv("OMP_WAIT_POLICY") == nullptr && std::getenv("GOMP_SPINCOUNT") == nullptr) {
         changed = set("GOMP_SPINCOUNT", "3000") || changed;
     }
@@ -189,7 +200,7 @@ int complain(const std::string& sentence, int code) {
 int main(int argc, char** argv) {
     using namespace coagula::tools;
     coagula::io::occupy_standard_descriptors();
-    restart_with_thread_settings(argv);
+    restart_with_settings(argv);
     coagula::take_newest_blas_kernels();
     install_signal_handlers();
     std::set_terminate(coagula::end_with_sentence);

@@ -90,17 +90,29 @@ void silence_errors() {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-File File::open(const std::string& path) {
-    check_input(path);
+File File::opened(const std::string& path, const Handle& access) {
     silence_errors();
-    Handle id(H5Fopen(path.c_str(), H5F_ACC_RDONLY, file_access().get()), H5Fclose);
+    Handle id(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose);
     if (!id) {
         throw InputError(path + " " + why_not_opened(path));
     }
     File file{path, nullptr, std::move(id)};
     file.length_ = std::filesystem::file_size(path);
+    return file;
+}
+
+File File::open(const std::string& path) {
+    check_input(path);
+    File file = opened(path, file_access());
     file.inspect();
     return file;
+}
+
+File File::open_own(const std::string& path) {
+    constexpr std::size_t growth = std::size_t{1} << 20;
+    const Handle access = file_access();
+    H5Pset_fapl_core(access.get(), growth, false);
+    return opened(path, access);
 }
 
 void File::fail(const std::string& object, const std::string& rule) const {

@@ -88,6 +88,8 @@ class File {
 public:
     /// Opens and inspects a file. HDF5 crashes on some damaged files, so this belongs into run_in_child.
     static File open(const std::string& path);
+    /// Opens a file that this program has made and nobody else changes: it is read at once and not inspected.
+    static File open_own(const std::string& path);
     /// @param descriptor of an empty file that is to hold it, which must stay open; none: memory.
     static File create(const std::string& path, int descriptor = -1);
 
@@ -165,6 +167,7 @@ public:
 private:
     File(std::string path, std::unique_ptr<FileImage> image, Handle id)
         : path_(std::move(path)), image_(std::move(image)), id_(std::move(id)) {}
+    static File opened(const std::string& path, const Handle& access);
     void inspect() const;
     void require_plausible(const std::string& object, std::size_t bytes) const;
     void require_text(const std::string& object, const std::string& text) const;

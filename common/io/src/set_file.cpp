@@ -161,7 +161,7 @@ void fill(File& file, const SetHead& head, const std::vector<SetStructure>& stru
     for (const SetStructure& structure : structures) {
         file.require_room();
         if (structure.group == "/") {
-            file.copy_group_from(File::open(structure.file), "/", group_of_structure(structure.id));
+            file.copy_group_from(File::open_own(structure.file), "/", group_of_structure(structure.id));
             continue;
         }
         const auto opened = sets.find(structure.file);
