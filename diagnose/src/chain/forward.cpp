@@ -166,8 +166,8 @@ UncertainModuli Forward::material(const Model& model, bool exact) const {
             moduli = smooth_->moduli();
             break;
     }
-    scale(moduli, model, exact);
     replace_fluids(moduli);
+    scale(moduli, model, exact);
     return moduli;
 }
 
@@ -181,9 +181,11 @@ void Forward::scale(UncertainModuli& moduli, const Model& model, bool exact) con
         if (const std::size_t first = first_of_row_[k]; first < k) {
             factor = factors[static_cast<Index>(first)];
         } else if (is_modulus_or_viscosity(observations_[k])) {
-            model.for_each<ScalesMaterial>(
-                [&](const ScalesMaterial& effect, Values values) { factor *= effect.factor(observations_[k], values, sample); });
-            if (const double amplitude = observations_[k].strain; std::isfinite(amplitude)) {
+            const bool fluid = is_fluid(observations_[k]);
+            model.for_each<ScalesMaterial>([&](const ScalesMaterial& effect, Values values) {
+                factor *= fluid && !effect.in_oil ? 1 : effect.factor(observations_[k], values, sample);
+            });
+            if (const double amplitude = observations_[k].strain; std::isfinite(amplitude) && !fluid) {
                 model.for_each<BendsStress>([&](const BendsStress& effect, Values values) {
                     factor *= fundamental(amplitude, [&](double strain) { return effect.secant(strain, values); });
                 });

@@ -278,18 +278,18 @@ StepConversion convert(Measurement& table, std::size_t number) {
                    " angular frequencies, but five are needed: it takes more decades of time, more rows in each, or less scatter");
     }
     rows = {rows.begin() + static_cast<std::ptrdiff_t>(first), rows.begin() + static_cast<std::ptrdiff_t>(end)};
-    const StepConversion found{number,
-                               table.kind,
-                               used.size(),
-                               rows.size(),
-                               rows.front().angular_frequency,
-                               rows.back().angular_frequency,
-                               largest_strain(table, height, response),
-                               errors_of(table.kind, rows),
-                               response.times[0],
-                               response.times[response.times.size() - 1],
-                               table.label,
-                               table.sample};
+    StepConversion found{number,
+                         table.kind,
+                         used.size(),
+                         rows.size(),
+                         rows.front().angular_frequency,
+                         rows.back().angular_frequency,
+                         largest_strain(table, height, response),
+                         errors_of(table.kind, rows),
+                         response.times[0],
+                         response.times[response.times.size() - 1],
+                         table.label,
+                         table.sample};
     table = sweep_of(table, rows, found.largest_strain, found.last_time);
     if (found.kind == MeasurementKind::creep) {
         table.stress_controlled = table.stress_controlled.value_or(true);  // what the user states holds

@@ -129,7 +129,7 @@ Engine ensemble(const EnsembleOptions& options) {
         Eigen::MatrixXd places(axes, options.walkers * options.sweeps);
         for (int sweep = 0; sweep < options.sweeps; ++sweep) {
             walkers.sweep();
-            places.middleCols(sweep * options.walkers, options.walkers) = walkers.places();
+            places.middleCols(static_cast<Eigen::Index>(sweep) * options.walkers, options.walkers) = walkers.places();
         }
         return posterior_by(problem, places, walkers.highest());
     };

@@ -10,6 +10,7 @@
 #include <limits>
 #include <map>
 #include <utility>
+#include <variant>
 
 namespace coagula::diagnose {
 
@@ -29,10 +30,19 @@ bool plates_differ(const Experiment& experiment) {
     return column_differs(experiment, "gap") || column_differs(experiment, "plate_radius");
 }
 
+bool has_oil(const Experiment& experiment) {
+    return any_table(experiment, [](const Measurement& table) { return std::isfinite(table.fluid_viscosity); });
+}
+
 /// The kind as far as an experiment tells it. Without other gaps or plates, what these do in time is a change of the sample, and
 /// what they do along the strain to a material that may soften in any way is that; along a gap or a radius that is one there is no
 /// axis.
 Kind told_kind(Kind kind, const Experiment& experiment) {
+    const bool flows_alone = any_table(experiment, [](const Measurement& table) { return is_flow(table.kind); }) &&
+                             !any_table(experiment, [](const Measurement& table) { return has_moduli(table.kind); });
+    if (kind.axis == Axis::strain && flows_alone) {
+        return {kind.link, Axis::shear_rate};  // which a strain amplitude is not
+    }
     const bool is_smooth = experiment.material.kind == MaterialKind::smooth;
     if ((kind.axis == Axis::gap && !column_differs(experiment, "gap")) ||
         (kind.axis == Axis::radius && !plates_differ(experiment))) {
@@ -60,23 +70,31 @@ const Mechanism* leading_member(const Hypothesis& hypothesis, const std::vector<
 }
 
 bool is_separated(Kind kind, const Experiment& experiment) {
-    const bool oil = any_table(experiment, [](const Measurement& table) { return std::isfinite(table.fluid_viscosity); });
-    if (experiment.material.kind == MaterialKind::network &&
-        (kind == Kind{Link::material, Axis::frequency} || kind == Kind{Link::tool, Axis::level})) {
-        return oil;
+    const bool network = experiment.material.kind == MaterialKind::network;
+    if (network && kind == Kind{Link::tool, Axis::level}) {
+        return has_oil(experiment);
+    }
+    if (network && kind == Kind{Link::material, Axis::frequency}) {
+        return false;
     }
     if (kind == Kind{Link::geometry, Axis::level}) {
         return false;
     }
     if (kind.axis == Axis::strain) {
-        return told_kind(kind, experiment) == kind;
+        return told_kind(kind, experiment).link == kind.link;
     }
     if (kind.axis != Axis::time) {
         return true;
     }
     const Knows knows = knowledge_of(experiment);
     const bool trap = any_table(experiment, [](const Measurement& table) { return table.solvent_trap; });
-    return oil || trap || knows.load || knows.shear_before || plates_differ(experiment);
+    return has_oil(experiment) || trap || knows.load || knows.shear_before || plates_differ(experiment);
+}
+
+bool is_separated(const Mechanism& cause, const Experiment& experiment) {
+    const auto* scales = std::get_if<ScalesMaterial>(&cause.effect);
+    const bool in_oil = scales != nullptr && scales->in_oil && experiment.material.kind != MaterialKind::newtonian;
+    return in_oil ? has_oil(experiment) : is_separated(cause.kind, experiment);
 }
 
 std::vector<FollowedKind> kinds_of(const Comparison& comparison, const Experiment& experiment) {

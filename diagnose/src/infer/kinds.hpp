@@ -17,9 +17,12 @@ double weight_alone(const Mechanism* one, const std::vector<Compared>& all);
 const Mechanism* leading_member(const Hypothesis& hypothesis, const std::vector<Compared>& all);
 
 /// Whether the experiment holds what tells causes of this kind from their look-alikes, also from those that the catalogue does not
-/// have: an oil shows an error of phase and not a loss in the contacts; what the clock does alone does not depend on gap, plates,
-/// trap or force, and begins anew after a pause that shears.
+/// have: an oil shows a wrong level, what the clock does alone does not depend on gap, plates, trap or force, and begins anew after
+/// a pause that shears. Nothing tells a loss in the contacts from a phase that the tool turns, as of an oil G'' alone is compared.
 bool is_separated(Kind kind, const Experiment& experiment);
+
+/// The same of a cause: what an oil shows, too, only an oil tells from what the sample does by itself.
+bool is_separated(const Mechanism& cause, const Experiment& experiment);
 
 /// The kinds of departure, most probable first: by the causes of each, without what they leave over, and by its free form, which
 /// counts as much as a cause.

@@ -203,9 +203,8 @@ std::vector<Condition> conditions_of(const Comparison& comparison, const Inferen
     const double width = widest_interval(winner.fit);
     const double gained = gained_without_a_row(comparison, inference);
     const Hypothesis& causes = winner.fit.hypothesis;
-    const bool separated = std::all_of(causes.begin(), causes.end(), [&](const Mechanism* one) {
-        return is_separated(one->kind, inference.forward().experiment());
-    });
+    const bool separated = std::all_of(causes.begin(), causes.end(),
+                                       [&](const Mechanism* one) { return is_separated(*one, inference.forward().experiment()); });
     const double over_members = over_one_member(winner, comparison.all);
     // What was counted of structures differs from one to the next by more than a smooth curve that was seen in the other.
     const auto& observations = inference.errors().data().observations;

@@ -21,7 +21,7 @@ Mechanism temperature_drift() {
                 "shows it too.",
             .kind = {Link::history, Axis::time},
             .parameters = {{"start_difference", "1", -0.3, 0.3, false}, {"settling_time", "s", 60, 3000, true}},
-            .effect = ScalesMaterial{drifting},
+            .effect = ScalesMaterial{.factor = drifting, .in_oil = true},
             .applies = [](const Knows& knows) { return knows.clock; },
             .in_any_fluid = true};
 }

@@ -61,6 +61,7 @@ struct ChangesSimulation {
 /// A factor on the modulus of the material in a row.
 struct ScalesMaterial {
     std::complex<double> (*factor)(const Observation& row, Values values, const SimulatedSample& sample);
+    bool in_oil = false;  ///< an oil in place of the sample shows it, too
 };
 
 /// A law of the material that is the same in both directions and has no memory: stress over strain at a momentary strain, over that
