@@ -48,6 +48,7 @@ inline constexpr std::array written_coordinates{
     WrittenCoordinate{"time", "time t [s]", "time", " s"},
     WrittenCoordinate{"shear_rate", "shear rate [1/s]", "shear_rate", " 1/s"},
     WrittenCoordinate{"gap", "gap h [mm]", "gap", " mm", 1e-3},
+    WrittenCoordinate{"plate_radius", "plate radius R [mm]", "plate radius", " mm", 1e-3},
     WrittenCoordinate{"heterogeneity", "degree of heterogeneity a", "heterogeneity", ""},
     WrittenCoordinate{"coordination", "coordination number C", "coordination", ""},
     WrittenCoordinate{"volume_fraction", "volume fraction φ", "volume_fraction", ""},
