@@ -21,7 +21,7 @@ char* FileImage::resize(std::size_t size) {
     }
     const bool grows_on_disk = descriptor_ >= 0 && size > size_ && error_ == 0;
     if (grows_on_disk) {  // or a signal would tell that the disk is full
-        error_ = posix_fallocate(descriptor_, 0, static_cast<off_t>(size));
+        error_ = posix_fallocate(descriptor_, static_cast<off_t>(size_), static_cast<off_t>(size - size_));
     }
     if (error_ != 0) {
         return resize_in_memory(size);
