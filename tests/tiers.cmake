@@ -138,7 +138,8 @@ function(coagula_set_tier)
     if(test MATCHES "[Tt]hread|^RunTogether[.]")
       set(most "")
     endif()
-    set(heap glibc.malloc.hugetlb=1:glibc.malloc.mmap_max=0:glibc.malloc.top_pad=16777216) # as tools/cli/main.cpp has it
+    set(heap # as tools/cli/main.cpp has it
+      glibc.malloc.hugetlb=1:glibc.malloc.mmap_max=0:glibc.malloc.top_pad=16777216:glibc.malloc.trim_threshold=1099511627776)
     set_tests_properties("${test}" PROPERTIES LABELS ${tier} ENVIRONMENT_MODIFICATION
       "${most}COAGULA_PROCESSOR_LIMIT=set:${limit};OMP_NUM_THREADS=set:1;OPENBLAS_NUM_THREADS=set:1;GOMP_SPINCOUNT=set:3000;GLIBC_TUNABLES=set:${heap}")
   endforeach()

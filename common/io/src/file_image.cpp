@@ -40,7 +40,7 @@ char* FileImage::resize(std::size_t size) {
     return data_;
 }
 
-/// What lies on disk stays there, at the beginning of the new place.
+/// The part on disk stays there and becomes the beginning of the new place.
 char* FileImage::resize_in_memory(std::size_t size) {
     void* place = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (place == MAP_FAILED) {

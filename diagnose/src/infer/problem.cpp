@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What an inference gives an engine to solve.
+// An inference states the problem that an engine solves.
 #include "departures.hpp"
 #include "hypothesis.hpp"
 

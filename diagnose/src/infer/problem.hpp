@@ -12,7 +12,8 @@
 
 namespace coagula::diagnose {
 
-/// What is known at one place of the prior of the causes' parameters, 0 .. 1 along each axis, the stiffness integrated out.
+/// A node holds what is known at one place of the prior of the causes' parameters, 0 .. 1 along each axis; the stiffness is
+/// integrated out.
 struct Node {
     double log_stiffness = 0;  ///< most probable there
     double deviation = 0;      ///< of log_stiffness
@@ -20,7 +21,8 @@ struct Node {
     double log_weight = 0;     ///< stiffness integrated out
 };
 
-/// What is left of the data at a place and how the parameters of the causes move it, all else that is fitted projected out.
+/// It holds what is left of the data at a place, and how the parameters of the causes move that; all else that is fitted is
+/// projected out.
 struct ProjectedResidual {
     Eigen::VectorXd residual;  ///< whitened
     Eigen::MatrixXd slopes;    ///< its derivatives by the places of the parameters

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What an oil of known viscosity shows, and from what it tells a cause.
+// These tests hold what an oil of known viscosity shows, and which causes it tells apart.
 #include "chain/forward.hpp"
 #include "hidden_effects.hpp"
 #include "infer/kinds.hpp"
@@ -70,11 +70,20 @@ TEST(Oil, DoesNotTellALossFromAPhase) {
 }
 
 /// A strain amplitude is no axis of a flow curve.
-TEST(Oil, AnOffsetOfTheTorqueFollowsTheRateWhereTheSampleFlows) {
+TEST(FlowCurve, AnOffsetOfTheTorqueFollowsTheRate) {
     Measurement curve;
     curve.kind = MeasurementKind::flow_curve;
     curve.columns = {{"shear_rate", "1/s", {0.1, 1, 10}}, {"viscosity", "Pa.s", {3, 1, 1}}};
-    EXPECT_TRUE(is_separated(*find_mechanism("torque-offset"), with({curve}, MaterialKind::newtonian)));
+    const Experiment experiment = with({curve}, MaterialKind::newtonian);
+    const Mechanism* offset = find_mechanism("torque-offset");
+    EXPECT_TRUE(is_separated(*offset, experiment));
+    Comparison comparison;
+    comparison.all.resize(2);
+    comparison.all[0].fit.log_evidence = -1e3;
+    comparison.all[1].fit.hypothesis = {offset};
+    const Kind kind = kinds_of(comparison, experiment).front().kind;
+    EXPECT_EQ(kind.link, Link::tool);
+    EXPECT_EQ(kind.axis, Axis::shear_rate);
 }
 
 }  // namespace
