@@ -152,6 +152,7 @@ Fit moved_fit(const Inference& inference, const Start& start, const Followed& be
     const Eigen::VectorXd rest = middle.tail(middle.size() - 1);
     Fit fit = start.fit;
     fit.model = Model(fit.hypothesis, Values(rest.data(), static_cast<std::size_t>(rest.size())), middle[0]);
+    fit.log_density = inference.errors().log_density(inference.prediction(fit.model));
     for (std::size_t k = 0; k < start.follow.size(); ++k) {
         const double sigma = deviation[static_cast<Index>(k)];
         const double value = middle[start.follow[k]];
@@ -184,12 +185,13 @@ Eigen::MatrixXd draws_of(const Inference& inference, const Start& start, const F
 }
 
 /// Density of the data without a discrepancy. Where part of the data lies far off, the integral over what follows may find a
-/// lower maximum than the fit has found; then the density about the fit counts.
+/// lower maximum than the fit has found, and a nonlinear prediction other errors; then the density that the fit has found counts.
 double density_alone(const ErrorModel& errors, const Start& start) {
     const Index follow = start.following.cols();
     const Eigen::MatrixXd precision = Eigen::MatrixXd::Identity(follow, follow) + start.following.transpose() * start.following;
     const double log_width = -precision.llt().matrixLLT().diagonal().array().log().sum();
-    return std::max(errors.log_density(start.prediction, start.following), errors.log_density(start.prediction) + log_width);
+    const double at_fit = std::max(start.fit.log_density, errors.log_density(start.prediction));
+    return std::max(errors.log_density(start.prediction, start.following), at_fit + log_width);
 }
 
 /// Density of the data beside a departure in these whitened directions, for every amplitude.

@@ -193,7 +193,7 @@ Fit Inference::fit_here(const Hypothesis& hypothesis, const Engine& engine) cons
     Fit fit{.hypothesis = hypothesis,
             .model = model_at(hypothesis, place, stiffness),
             .parameters = {},
-            .log_density = posterior.node.log_density,
+            .log_density = posterior.node.log_density - (scales_ ? log_prior(posterior.node.log_stiffness) : 0.0),
             .log_evidence = posterior.log_evidence,
             .draws = posterior.draws};
     for (std::size_t axis = 0; axis < parameters.size(); ++axis) {

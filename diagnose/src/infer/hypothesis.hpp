@@ -25,7 +25,7 @@ struct Fit {
     std::vector<bool> active_end = {};  ///< of each parameter: its most probable value lies at an end of the prior, beyond which
                                         ///< the data would have it
     Estimate stiffness{};               ///< of a particle [N/m]
-    double log_density = 0;             ///< of the data at `model`
+    double log_density = 0;             ///< of the data at `model`, without the priors
     double log_evidence = 0;            ///< of the data, all parameters integrated over their priors
     Eigen::MatrixXd draws;              ///< normal stiffness and parameters x equally probable draws from the posterior
 

@@ -123,6 +123,22 @@ TEST(Discrepancy, LeadsTheParametersToWhereTheyStay) {
     EXPECT_GT(beside.high, 3e-5);
 }
 
+/// A nonlinear prediction may find other errors, and a lower density, than the fit has found: a discrepancy gains from what the fit
+/// has found.
+TEST(Discrepancy, GainsNothingFromADensityThatTheFitHasFoundHigher) {
+    const Experiment experiment = sweeps_of(with_inertia, 100);
+    const DataSet data = data_set_of(experiment, {.sample = 0.02});
+    const Forward forward(experiment, data.observations, simulator());
+    const ErrorModel errors(data);
+    const Inference inference(forward, errors);
+    const SmoothDepartures departures = smooth_departures(data.observations);
+    Fit fit = inference.fit({find_mechanism("tool-inertia")});
+    EXPECT_NEAR(fit.log_density, errors.log_density(inference.prediction(fit.model)), 0.1);
+    const double alone = find_discrepancy(inference, fit, departures).log_factor;
+    fit.log_density += 50;
+    EXPECT_NEAR(find_discrepancy(inference, fit, departures).log_factor, alone - 50, 5);
+}
+
 /// A smooth material follows by its own functions and keeps the parameters where they are; they are no better known for that.
 TEST(Discrepancy, OfASmoothMaterialLeavesNoIntervalOfZeroWidth) {
     Experiment experiment = sweeps_of(
