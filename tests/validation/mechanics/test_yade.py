@@ -16,13 +16,13 @@ SHEAR_STIFFNESS = 10.0  # of a particle [N/m]
 
 @unittest.skipUnless(shutil.which("yade"), "Yade is not installed: apt-get install yade")
 class Yade(OtherProgramTest):
-    def check(self, tolerance, strain):
-        network = self.packing_bonded(tolerance)
+    def check(self, tolerance, strain, particles):
+        network = self.packing_bonded(tolerance, particles)
         sheared = self.moduli_by_coagula(network, tolerance, SHEAR_STIFFNESS)
         answer = self.ask_yade({"edge": network.edge, "positions": network.positions, "tolerance": tolerance, "strain": strain,
                                 "shear_stiffness": SHEAR_STIFFNESS / NORMAL_STIFFNESS})
         self.assertEqual(answer["bonds"], len(network.bonds))
-        self.compare("Yade", network, answer["moduli"], sheared["storage_modulus"], 0.005)
+        self.compare("Yade", network, answer["moduli"], sheared["storage_modulus"], 0.001)
 
     def ask_yade(self, request):
         self.write("request.json", json.dumps(request))
@@ -32,10 +32,11 @@ class Yade(OtherProgramTest):
         return json.loads((self.folder / "answer.json").read_text())
 
     def test_network_of_touching_particles(self):
-        self.check(tolerance=0.01, strain=1e-5)
+        # The softest modes of larger ones swing for a hundred thousand steps.
+        self.check(tolerance=0.01, strain=1e-5, particles=500)
 
     def test_network_with_more_bonds_at_another_strain(self):
-        self.check(tolerance=0.15, strain=1e-6)
+        self.check(tolerance=0.15, strain=1e-6, particles=1000)
 
 
 if __name__ == "__main__":
