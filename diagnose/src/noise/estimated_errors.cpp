@@ -4,10 +4,11 @@
 
 #include "data/table_cells.hpp"
 
+#include <coagula/common/special_functions.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 namespace coagula::diagnose {
 
@@ -129,26 +130,80 @@ TableErrors errors_of(const Measurement& table, const std::vector<NoiseModel>& n
     return errors;
 }
 
-void estimate_sample_effect(const std::vector<NoiseModel>& noise, double stated, ErrorSpec& errors) {
-    std::map<std::vector<std::string>, std::vector<double>> variances;
+/// Scatter of the levels of samples, as replicates show it.
+struct Scatter {
+    double degrees = 0;    ///< of freedom
+    double variance = 0;   ///< mean over these
+    double from_rows = 0;  ///< variance that the errors of the rows leave in the level of a sample
+};
+
+/// Models of the same samples tell the same effects.
+Scatter scatter_of_samples(const std::vector<NoiseModel>& noise) {
+    std::map<std::vector<std::string>, std::vector<const NoiseModel*>> of_samples;
     for (const NoiseModel& model : noise) {
         if (model.sample_estimated) {
             std::vector<std::string> names;
             for (const SampleEffect& effect : model.sample_effects) {
                 names.push_back(effect.sample);
             }
-            variances[names].push_back(model.sample.value * model.sample.value);
+            of_samples[names].push_back(&model);
         }
     }
-    double squares = stated * stated;
-    double degrees = 1;
-    for (const auto& [names, each] : variances) {
-        const auto own = static_cast<double>(names.size() - 1);
-        squares += own * std::accumulate(each.begin(), each.end(), 0.0) / static_cast<double>(each.size());
-        degrees += own;
+    Scatter all;
+    for (const auto& [names, models] : of_samples) {
+        const auto degrees = static_cast<double>(names.size() - 1);
+        const double weight = degrees / static_cast<double>(models.size());
+        for (const NoiseModel* model : models) {
+            const double correlation = std::clamp(model->autocorrelation, 0.0, 0.9);
+            const double rows = static_cast<double>(model->conditions) * (1 - correlation) / (1 + correlation);
+            all.variance += weight * model->sample.value * model->sample.value;
+            all.from_rows += weight * model->relative.value * model->relative.value / rows;
+        }
+        all.degrees += degrees;
     }
-    errors.sample = std::sqrt(squares / degrees);
-    errors.sample_degrees = variances.empty() ? errors.sample_degrees : degrees;
+    if (all.degrees > 0) {
+        all.variance /= all.degrees;
+        all.from_rows /= all.degrees;
+    }
+    return all;
+}
+
+/// The x at which the decreasing trigamma function has a value.
+double inverse_trigamma(double value) {
+    double low = 1e-3;
+    double high = 1e6;
+    for (int halving = 0; halving < 60; ++halving) {
+        const double middle = std::sqrt(low * high);
+        (trigamma(middle) > value ? low : high) = middle;
+    }
+    return std::sqrt(low * high);
+}
+
+/// The stated scatter is known to a factor of e (a standard deviation of its logarithm): samples that are alike show it soon. The
+/// posterior of the variance is then described by the scaled inverse chi-square of the same mean and variance of its logarithm.
+void estimate_sample_effect(const std::vector<NoiseModel>& noise, double stated, ErrorSpec& errors) {
+    const Scatter seen = scatter_of_samples(noise);
+    errors.sample = stated;
+    if (seen.degrees == 0) {
+        return;
+    }
+    if (stated == 0) {
+        errors.sample = std::sqrt(seen.variance);
+        errors.sample_degrees = seen.degrees;
+        return;
+    }
+    constexpr double farthest = 8;  // logarithms of the deviation
+    constexpr int nodes = 801;
+    Eigen::ArrayXd logarithm = std::log(stated) + Eigen::ArrayXd::LinSpaced(nodes, -farthest, farthest);
+    const Eigen::ArrayXd variance = (2 * logarithm).exp() + seen.from_rows;
+    const Eigen::ArrayXd density = -0.5 * (logarithm - std::log(stated)).square() -
+                                   0.5 * seen.degrees * (variance.log() + (seen.variance + seen.from_rows) / variance);
+    const Eigen::ArrayXd weight = (density - density.maxCoeff()).exp();
+    const double mean = 2 * (weight * logarithm).sum() / weight.sum();
+    const double spread = (weight * (2 * logarithm - mean).square()).sum() / weight.sum();
+    const double half = inverse_trigamma(spread);
+    errors.sample = std::exp(0.5 * (mean + digamma(half) - std::log(half)));
+    errors.sample_degrees = 2 * half;
 }
 
 }  // namespace

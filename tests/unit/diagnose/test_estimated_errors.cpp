@@ -127,5 +127,76 @@ TEST(EstimatedErrors, OfAFluidAreThoseOfTheTorque) {
     }
 }
 
+/// What replicates of so many samples tell of their scatter. @param rows_error of the level of a sample.
+NoiseModel of_samples(std::size_t samples, double deviation, double rows_error = 1e-3) {
+    NoiseModel model;
+    model.sample_estimated = true;
+    model.sample.value = deviation;
+    model.conditions = 100;
+    model.relative.value = 10 * rows_error;
+    for (std::size_t sample = 0; sample < samples; ++sample) {
+        model.sample_effects.push_back({std::to_string(sample), 0});
+    }
+    return model;
+}
+
+ErrorSpec sample_errors(const std::vector<NoiseModel>& models, double stated = 0.1) {
+    return estimated_errors({}, models, {.sample = stated});
+}
+
+/// Usual samples scatter by 10 %; replicates that scatter less say so, the more of them the clearer.
+TEST(EstimatedErrors, OfSamplesThatAreAlikeAreSmall) {
+    EXPECT_EQ(sample_errors({}).sample, 0.1);
+    double before = 0.05;
+    for (const std::size_t samples : {2U, 3U, 4U, 6U}) {
+        const ErrorSpec spec = sample_errors({of_samples(samples, 0.0035)});
+        EXPECT_LT(spec.sample, before) << samples;
+        before = spec.sample;
+    }
+    EXPECT_LT(before, 0.006);
+    EXPECT_NEAR(sample_errors({of_samples(4, 0.1)}).sample, 0.1, 0.02);
+    EXPECT_GT(sample_errors({of_samples(4, 0.3)}).sample, 0.2);
+    EXPECT_NEAR(sample_errors({of_samples(5, 0.02)}, 0).sample, 0.02, 1e-12);
+}
+
+/// The same numbers of torque twice are no further samples; those of others are.
+TEST(EstimatedErrors, OfOtherSamplesCountTogether) {
+    const NoiseModel one = of_samples(3, 0.02);
+    NoiseModel others = one;
+    for (SampleEffect& effect : others.sample_effects) {
+        effect.sample += "'";
+    }
+    EXPECT_NEAR(sample_errors({one, one}).sample, sample_errors({one}).sample, 1e-12);
+    EXPECT_NEAR(sample_errors({one, others}).sample, sample_errors({of_samples(5, 0.02)}).sample, 1e-12);
+}
+
+/// By weighted draws of the deviation from its prior: quantiles of the posterior.
+TEST(EstimatedErrors, OfSamplesAreTheirPosterior) {
+    constexpr std::size_t draws = 200'000;
+    for (const auto& [samples, seen, rows_error] : {std::tuple(2U, 0.0, 0.004), {3U, 0.01, 0.002}, {5U, 0.2, 0.01}}) {
+        std::vector<std::pair<double, double>> weighted;
+        double whole = 0;
+        for (std::size_t draw = 0; draw < draws; ++draw) {
+            const double deviation = 0.1 * std::exp(random_normal(2, RandomPurpose::test, draw, 0).x());
+            const double variance = deviation * deviation + rows_error * rows_error;
+            const double mean_square = seen * seen + rows_error * rows_error;
+            weighted.emplace_back(deviation, std::pow(std::exp(-mean_square / variance) / variance, 0.5 * (samples - 1)));
+            whole += weighted.back().second;
+        }
+        std::sort(weighted.begin(), weighted.end());
+        const ErrorSpec spec = sample_errors({of_samples(samples, seen, rows_error)});
+        double below = 0;
+        std::size_t place = 0;
+        for (const double normal : {1.0, 0.0, -1.0}) {  // the smallest deviation has the largest chi-square
+            const double part = 0.5 * std::erfc(normal / std::sqrt(2));
+            for (; below < part * whole; ++place) {
+                below += weighted[place].second;
+            }
+            const double described = spec.sample / std::sqrt(scaled_chi_square(spec.sample_degrees, normal));
+            EXPECT_NEAR(std::log(described / weighted[place].first), 0, 0.3) << samples << " samples, " << part;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace coagula::diagnose

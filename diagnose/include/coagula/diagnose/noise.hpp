@@ -129,7 +129,7 @@ ErrorShape shape_of_errors(const std::vector<NoiseModel>& models, const NoiseMod
 double standard_deviation(const NoiseModel& noise, double level, double floor_weight);
 
 /// Errors by the noise models for every modulus and viscosity whose error neither its table nor a reduction states, and the effect
-/// of a sample. Models of the same samples tell the same effects; the stated one counts as one degree of freedom.
+/// of a sample. Models of the same samples tell the same effects; the stated one is known to a factor of e beforehand.
 /// @param known errors so far: those by noise models are replaced, the others stay.
 ErrorSpec estimated_errors(const Experiment& experiment, const std::vector<NoiseModel>& noise, const StatedNoise& stated = {},
                            ErrorSpec known = {});
