@@ -280,7 +280,7 @@ TableRule rule_of(MeasurementKind kind) {
         case MeasurementKind::start_up:
             return {{"time"}, {"viscosity"}, 8, true};
         case MeasurementKind::gap_series:
-            return {{"gap"}, {"storage_modulus"}, 4, true};
+            return {{"gap"}, {"storage_modulus"}, 4, false};  // in no order, a drift in time does not follow the gap
         case MeasurementKind::structure_series:
             return {{"heterogeneity", "coordination", "volume_fraction"}, {"storage_modulus"}, 4, false};
         case MeasurementKind::coordinates:

@@ -210,6 +210,17 @@ TEST(CheckData, AcceptsDescendingSweepsAndRefusesShuffledOnes) {
     expect_problem(table, "the rows are in the wrong order: 7 of 20 values of 'strain'");
 }
 
+/// Gaps that are set in no order tell a drift in time from what follows the gap, and the first gap again at the end does.
+TEST(CheckData, GapsComeInAnyOrder) {
+    Measurement series;
+    series.kind = MeasurementKind::gap_series;
+    series.label = "series";
+    series.columns = {{"gap", "m", {1e-3, 3e-4, 2e-3, 5e-4, 1.5e-3, 1e-3}}, {"storage_modulus", "Pa", {100, 90, 105, 95, 101, 99}}};
+    const CheckedMeasurement checked = check_data(series);
+    EXPECT_TRUE(checked.problems.empty());
+    EXPECT_TRUE(checked.measurement.left_out.empty());
+}
+
 TEST(CheckData, TimeRunsForwards) {
     Measurement table = amplitude_sweep();
     table.kind = MeasurementKind::time_sweep;

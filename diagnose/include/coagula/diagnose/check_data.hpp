@@ -41,7 +41,7 @@ struct CheckedMeasurement {
 /// Checks one table:
 /// - the axis and the columns that its kind requires are there, with SI units, and are not empty;
 /// - values are possible (an angular frequency > 0, ...); impossible cells are left out;
-/// - the axis runs in one direction (time: upwards); cells that break the order are left out, many of them are a problem;
+/// - the axis of a sweep runs in one direction (time: upwards); cells that break it are left out, many of them are a problem;
 /// - columns that repeat each other agree row by row: |G*| x strain amplitude = stress amplitude, G''/G' = tan delta,
 ///   |G*| = angular frequency x |eta*|, torque proportional to stress, ...; where they do not, the cells are left out that no other
 ///   relation and no evenly stepped axis vouches for. Rows that all disagree by one factor are a problem of units. A column that
