@@ -29,6 +29,7 @@ Prediction Forward::prediction(const Model& model) const {
         place = smooth_->best(place, about.values, about.errors.changes);
         about = prediction(model, place);
     }
+    about.errors.changes(Eigen::all, smooth_->at_end(place)).setZero();
     return about;
 }
 

@@ -20,6 +20,7 @@ namespace {
 
 constexpr double degrees_of_material = 4;  ///< of freedom of the size of the coefficients
 using Complex = std::complex<double>;
+using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
 constexpr double elements_per_decade = 3;
 constexpr int fewest_bumps = 4;    ///< along strain, age or shear rate
@@ -62,18 +63,30 @@ public:
         middle_ = median({sizes_.begin(), sizes_.end()});
     }
 
+    /// Elements that relax slower than the lowest frequency and faster than the highest show there, too.
     /// @param frequencies angular ones.
     void add_relaxation(const Eigen::ArrayXd& frequencies) {
+        constexpr int beyond = 4;                // elements at either end
+        constexpr double beyond_per_decade = 6;  // the closer, because they do not take off from each other
         const double low = frequencies.minCoeff();
         const double high = frequencies.maxCoeff();
         const int elements = 1 + static_cast<int>(std::lround(elements_per_decade * std::log10(high / low)));
+        std::vector<double> places;
+        for (int k = beyond; k > 0; --k) {
+            places.push_back(low * std::pow(10, -k / beyond_per_decade));
+        }
+        for (int k = 0; k < elements; ++k) {
+            places.push_back(low * std::pow(high / low, static_cast<double>(k) / std::max(1, elements - 1)));
+        }
+        for (int k = 1; k <= beyond; ++k) {
+            places.push_back(high * std::pow(10, k / beyond_per_decade));
+        }
         double size = size_at(frequencies, low);  // does not fall with the frequency, whatever an instrument shows
         add(Eigen::ArrayXcd::Constant(frequencies.size(), size));
-        for (int k = 0; k < elements; ++k) {
-            const double place = low * std::pow(high / low, static_cast<double>(k) / std::max(1, elements - 1));
+        for (const double place : places) {
             const Eigen::ArrayXcd product = Complex(0, 1) * frequencies / place;
             size = std::max(size, size_at(frequencies, place));
-            add(size * product / (1 + product));
+            add(size * product / (1 + product), place < low || place > high);
         }
         add(Complex(0, size / high) * frequencies);
     }
@@ -99,6 +112,7 @@ public:
     }
 
     const Eigen::MatrixXcd& columns() const { return columns_; }
+    const Flags& not_negative() const { return not_negative_; }
 
 private:
     /// Where they are, and what they are at every observation: as wide as they are apart.
@@ -116,9 +130,11 @@ private:
         return bumps;
     }
 
-    void add(const Eigen::ArrayXcd& column) {
+    void add(const Eigen::ArrayXcd& column, bool not_negative = false) {
         columns_.conservativeResize(sizes_.size(), columns_.cols() + 1);
         columns_.rightCols(1) = wide * column.matrix();
+        not_negative_.conservativeResize(columns_.cols());
+        not_negative_.tail(1) = not_negative;
     }
 
     /// Middle |G*| of the nearest tenth of the data.
@@ -138,10 +154,11 @@ private:
     Eigen::ArrayXd sizes_;
     double middle_ = 1;
     Eigen::MatrixXcd columns_;
+    Flags not_negative_;
 };
 
 /// Functions that describe observations of oscillations, or of steady flow.
-Eigen::MatrixXcd functions_of(const std::vector<Observation>& observations, bool ages) {
+Functions functions_of(const std::vector<Observation>& observations, bool ages) {
     Functions functions(observations);
     const Places frequency = places_of(observations, Coordinate::angular_frequency);
     const Places rate = places_of(observations, Coordinate::shear_rate);
@@ -158,7 +175,39 @@ Eigen::MatrixXcd functions_of(const std::vector<Observation>& observations, bool
     if (const Places age = places_of(observations, Coordinate::time); ages && age.vary) {
         functions.add_bumps(age.at);
     }
-    return functions.columns();
+    return functions;
+}
+
+/// The x that minimises x^T normal x / 2 - right^T x, of which some are not negative (Lawson and Hanson, Solving Least Squares
+/// Problems (1974), ch. 23). @param x where to start: what is zero there may stay so.
+Eigen::VectorXd minimum(const Eigen::MatrixXd& normal, const Eigen::VectorXd& right, const Flags& not_negative, Eigen::VectorXd x) {
+    const double noticeable = 1e-10 * right.cwiseAbs().maxCoeff();
+    Flags free = !not_negative || x.array() > 0;
+    for (Index round = 0; round < 5 * x.size(); ++round) {
+        // What is not free is held at zero.
+        const Eigen::VectorXd chosen = free.cast<double>();
+        Eigen::MatrixXd of_free = chosen.asDiagonal() * normal * chosen.asDiagonal();
+        of_free.diagonal() += Eigen::VectorXd::Ones(x.size()) - chosen;
+        const Eigen::VectorXd next = of_free.llt().solve(chosen.cwiseProduct(right));
+        const Flags leaves = free && not_negative && next.array() <= 0;
+        if (leaves.any()) {
+            const Eigen::ArrayXd ways = leaves.select(x.array() / (x - next).array(), 1.0);
+            Index first = 0;
+            const double way = ways.minCoeff(&first);
+            x += way * (next - x);
+            x[first] = 0;
+            free[first] = false;
+            continue;
+        }
+        x = next;
+        const Eigen::ArrayXd slope = free.select(0.0, (right - normal * x).array());
+        Index steepest = 0;
+        if (!(slope.maxCoeff(&steepest) > noticeable)) {
+            break;
+        }
+        free[steepest] = true;
+    }
+    return x;
 }
 
 }  // namespace
@@ -181,7 +230,10 @@ SmoothMaterial::SmoothMaterial(const std::vector<Observation>& observations, boo
     functions_ = Eigen::MatrixXcd::Zero(size, 0);
     for (std::size_t part = 0; part < parts.size(); ++part) {
         if (!parts.at(part).empty()) {
-            const Eigen::MatrixXcd columns = functions_of(parts.at(part), ages);
+            const Functions functions = functions_of(parts.at(part), ages);
+            const Eigen::MatrixXcd& columns = functions.columns();
+            not_negative_.conservativeResize(functions_.cols() + columns.cols());
+            not_negative_.tail(columns.cols()) = functions.not_negative();
             functions_.conservativeResize(Eigen::NoChange, functions_.cols() + columns.cols());
             functions_.rightCols(columns.cols()).setZero();
             functions_(rows.at(part), Eigen::lastN(columns.cols())) = columns;
@@ -200,7 +252,17 @@ Eigen::VectorXd SmoothMaterial::best(const Eigen::VectorXd& coefficients, const 
     const Eigen::MatrixXd white = weights_.asDiagonal() * changes;
     const Eigen::VectorXd rest = weights_.cwiseProduct(values_ - seen + changes * coefficients);
     const Eigen::MatrixXd normal = white.transpose() * white + Eigen::MatrixXd::Identity(white.cols(), white.cols());
-    return normal.llt().solve(white.transpose() * rest);
+    return minimum(normal, white.transpose() * rest, not_negative_, coefficients);
+}
+
+std::vector<Index> SmoothMaterial::at_end(const Eigen::VectorXd& coefficients) const {
+    std::vector<Index> all;
+    for (Index k = 0; k < coefficients.size(); ++k) {
+        if (not_negative_[k] && coefficients[k] <= 0) {
+            all.push_back(k);
+        }
+    }
+    return all;
 }
 
 UncertainModuli SmoothMaterial::moduli() const {

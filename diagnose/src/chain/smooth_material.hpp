@@ -15,7 +15,8 @@ namespace coagula::diagnose {
 /// decade that was measured.
 ///
 /// Along the frequency the functions are a spring, a dashpot and Maxwell elements, so that G' and G'' belong to one relaxation
-/// spectrum (Ferry 1980, ch. 3). Each of them is as large as |G*| at its frequency. Along the logarithm of the strain they are
+/// spectrum (Ferry 1980, ch. 3), which no material has below zero: these coefficients are not negative. Each of them is as large as
+/// |G*| at its frequency. Along the logarithm of the strain they are
 /// bumps of each modulus, as large as the median of |G*|, and so they are along the logarithm of the age. The strain counts where
 /// it was set, not where it follows from a stress. In steady flow they are bumps of the viscosity along the logarithm of the shear
 /// rate, as large as the viscosity there.
@@ -35,12 +36,15 @@ public:
     /// The coefficients that meet the data best.
     /// @param seen what the instrument shows at `coefficients`. @param changes how that grows with each coefficient, in columns.
     Eigen::VectorXd best(const Eigen::VectorXd& coefficients, const Eigen::VectorXd& seen, const Eigen::MatrixXd& changes) const;
+    /// Those coefficients that would be negative if they could.
+    std::vector<Eigen::Index> at_end(const Eigen::VectorXd& coefficients) const;
 
 private:
     Eigen::MatrixXcd functions_;
     Eigen::VectorXd values_;
     Eigen::VectorXd weights_;
     Eigen::VectorXd start_;
+    Eigen::Array<bool, Eigen::Dynamic, 1> not_negative_;  ///< of each coefficient
 };
 
 }  // namespace coagula::diagnose
