@@ -385,7 +385,9 @@ void ParticleSystem::shear(int direction, int normal, double increment) {
             slots_.position[slot][direction] += increment * slots_.position[slot][normal];
         }
         for (std::size_t ghost = at(chunk.own_end); ghost < at(chunk.end); ++ghost) {
-            slots_.shift[ghost].head<3>() = image_shift(slots_.images[ghost]);
+            if (slots_.shift[ghost][normal] != 0) {
+                slots_.shift[ghost].head<3>() = image_shift(slots_.images[ghost]);
+            }
         }
     }
     const double farthest = 2 * radii_.maxCoeff() + skin_;
