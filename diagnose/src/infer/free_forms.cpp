@@ -101,6 +101,38 @@ private:
         }
     }
 
+    /// Smooth in time from the earliest row on: what is there from the beginning is no course in time.
+    void add_course(Kind kind, const Eigen::VectorXd& scale) {
+        const Eigen::VectorXd rank = rank_along(data_.observations, Coordinate::time);
+        for (const double length : smooth_lengths) {
+            for (const Departing departing : {Departing::storage, Departing::loss, Departing::both}) {
+                const Eigen::MatrixXd factor =
+                    since_earliest(smooth_factor(data_.observations, departing, {rank}, false, length), rank);
+                if (factor.size() > 0 && factor.cwiseAbs().maxCoeff() > 1e-6 && !scale.isZero(0)) {
+                    found_[kind].emplace_back(scale.asDiagonal() * factor);
+                }
+            }
+        }
+    }
+
+    /// Less what it is in the earliest row of its kind, where it departs.
+    Eigen::MatrixXd since_earliest(Eigen::MatrixXd factor, const Eigen::VectorXd& rank) const {
+        for (const bool loss : {false, true}) {
+            std::vector<Index> rows;
+            for (Index row = 0; row < factor.rows(); ++row) {
+                if (is_loss(data_.observations[static_cast<std::size_t>(row)]) == loss && !factor.row(row).isZero(0)) {
+                    rows.push_back(row);
+                }
+            }
+            const auto earliest = std::min_element(rows.begin(), rows.end(), [&](Index a, Index b) { return rank[a] < rank[b]; });
+            if (earliest != rows.end()) {
+                const Eigen::RowVectorXd first = factor.row(*earliest);
+                factor(rows, Eigen::all).rowwise() -= first;
+            }
+        }
+        return factor;
+    }
+
     /// Smooth along a coordinate, of G', of G'' or of both apart.
     void add_smooth(Kind kind, const Eigen::VectorXd& scale, Coordinate coordinate) {
         const Eigen::VectorXd rank = rank_along(data_.observations, coordinate);
@@ -120,7 +152,7 @@ private:
             if (varies(part)) {
                 const Eigen::VectorXd scale = level_.cwiseProduct(part);
                 add_smooth({Link::geometry, Axis::strain}, scale, Coordinate::strain);
-                add_smooth({Link::geometry, Axis::time}, scale, Coordinate::time);
+                add_course({Link::geometry, Axis::time}, scale);
             }
         }
     }
@@ -135,7 +167,7 @@ private:
         if (goes_along(Coordinate::strain)) {
             add_constant({Link::tool, Axis::strain}, offset);
             add_smooth({Link::tool, Axis::strain}, torque, Coordinate::strain);
-            add_smooth({Link::tool, Axis::time}, offset, Coordinate::time);
+            add_course({Link::tool, Axis::time}, offset);
         }
         if (varies(torque)) {
             const Kind still{Link::tool, goes_along(Coordinate::plate_radius) ? Axis::radius : Axis::gap};

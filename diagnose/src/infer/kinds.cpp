@@ -2,11 +2,16 @@
 #include "kinds.hpp"
 
 #include "data/knows.hpp"
+#include "observables/coordinate.hpp"
+#include "smooth.hpp"
 
 #include <coagula/common/log_probability.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <map>
 #include <utility>
@@ -34,6 +39,25 @@ bool has_oil(const Experiment& experiment) {
     return any_table(experiment, [](const Measurement& table) { return std::isfinite(table.fluid_viscosity); });
 }
 
+/// Whether what plates or tool do to a modulus is a factor that does not depend on it.
+bool is_proportional(const Mechanism& mechanism, const std::vector<Observation>& observations) {
+    std::vector<double> middle;
+    for (const MechanismParameter& parameter : mechanism.parameters) {
+        middle.push_back(parameter.at(0.7));
+    }
+    const auto holds = [&](const auto& effect) {
+        return std::all_of(observations.begin(), observations.end(), [&](const Observation& row) {
+            const double size = std::abs(row.value);
+            const std::complex<double> once = effect.apparent({size, size}, row, middle);
+            const std::complex<double> twice = effect.apparent({2 * size, 2 * size}, row, middle);
+            return !is<Modulus>(row) || std::abs(twice - 2.0 * once) <= 1e-6 * std::abs(twice);
+        });
+    };
+    const auto* geometry = std::get_if<ChangesGeometry>(&mechanism.effect);
+    const auto* tool = std::get_if<ChangesTool>(&mechanism.effect);
+    return geometry != nullptr ? holds(*geometry) : tool == nullptr || holds(*tool);
+}
+
 /// The kind as far as an experiment tells it. Without other gaps or plates, what these do in time is a change of the sample, and
 /// what they do along the strain to a material that may soften in any way is that; along a gap or a radius that is one there is no
 /// axis.
@@ -54,6 +78,68 @@ Kind told_kind(Kind kind, const Experiment& experiment) {
     return kind.axis == Axis::time                  ? Kind{Link::history, Axis::time}
            : kind.axis == Axis::strain && is_smooth ? Kind{Link::material, Axis::strain}
                                                     : kind;
+}
+
+/// The coordinate that an axis is.
+Coordinate coordinate_along(Axis axis) {
+    switch (axis) {
+        case Axis::time:
+        case Axis::age:
+            return Coordinate::time;
+        case Axis::strain:
+            return Coordinate::strain;
+        case Axis::frequency:
+            return Coordinate::angular_frequency;
+        case Axis::shear_rate:
+            return Coordinate::shear_rate;
+        case Axis::gap:
+            return Coordinate::gap;
+        case Axis::radius:
+            return Coordinate::plate_radius;
+        default:
+            return Coordinate::none;
+    }
+}
+
+/// Says of two axes whether they rise and fall together in all rows that have both, so that a function of one is one of the other.
+class RunTogether {
+public:
+    explicit RunTogether(const std::vector<Observation>& observations) : observations_(observations) {}
+
+    bool operator()(Axis a, Axis b) const {
+        constexpr double nearly = 0.98;
+        const Eigen::ArrayXd one = places(a);
+        const Eigen::ArrayXd other = places(b);
+        if (a == b || one.size() == 0 || other.size() == 0) {
+            return false;
+        }
+        const double squares = one.square().sum() * other.square().sum();
+        return squares > 0 && std::abs((one * other).sum()) > nearly * std::sqrt(squares);
+    }
+
+private:
+    /// Ranks less their mean; empty where the axis is no coordinate.
+    const Eigen::ArrayXd& places(Axis axis) const {
+        const auto [found, added] = places_.try_emplace(coordinate_along(axis));
+        if (added && found->first != Coordinate::none) {
+            found->second = rank_along(observations_, found->first).array();
+            found->second -= found->second.mean();
+        }
+        return found->second;
+    }
+
+    const std::vector<Observation>& observations_;
+    mutable std::map<Coordinate, Eigen::ArrayXd> places_;
+};
+
+/// The same of a cause. Where gap and plate are the same in all rows, what depends on the modulus besides follows the frequency.
+Kind told_kind(const Mechanism& cause, const Inference& inference) {
+    const Experiment& experiment = inference.forward().experiment();
+    const std::vector<Observation>& observations = inference.errors().data().observations;
+    const Kind told = told_kind(cause.kind, experiment);
+    const bool level = told.axis == Axis::level && cause.kind.axis != Axis::level;
+    const bool sweeps = rank_along(observations, Coordinate::angular_frequency).maxCoeff() > 0;
+    return level && sweeps && !is_proportional(cause, observations) ? Kind{told.link, Axis::frequency} : told;
 }
 
 }  // namespace
@@ -92,12 +178,10 @@ bool is_separated(Kind kind, const Experiment& experiment) {
 }
 
 bool is_separated(const Mechanism& cause, const Experiment& experiment) {
-    const auto* scales = std::get_if<ScalesMaterial>(&cause.effect);
-    const bool in_oil = scales != nullptr && scales->in_oil && experiment.material.kind != MaterialKind::newtonian;
-    return in_oil ? has_oil(experiment) : is_separated(cause.kind, experiment);
+    return is_separated(cause.kind, experiment) && (cause.told_apart == nullptr || cause.told_apart(knowledge_of(experiment)));
 }
 
-std::vector<FollowedKind> kinds_of(const Comparison& comparison, const Experiment& experiment) {
+std::vector<FollowedKind> kinds_of(const Comparison& comparison, const Inference& inference, bool cause_fits) {
     std::map<Kind, std::vector<double>> weights;
     std::map<Kind, const FreeForm*> forms;
     const double base = comparison.all.front().fit.log_evidence;
@@ -106,23 +190,32 @@ std::vector<FollowedKind> kinds_of(const Comparison& comparison, const Experimen
         forms[form.kind] = &form;
     }
     for (auto one = comparison.all.begin() + 1; one != comparison.all.end(); ++one) {
-        const Kind kind = leading_member(one->fit.hypothesis, comparison.all)->kind;
-        weights[told_kind(kind, experiment)].push_back(one->log_weight());
+        const Mechanism& cause = *leading_member(one->fit.hypothesis, comparison.all);
+        weights[told_kind(cause, inference)].push_back(one->log_weight());
     }
-    std::vector<double> logarithms;
-    std::vector<FollowedKind> kinds;
+    std::vector<std::pair<double, FollowedKind>> kinds;  // each behind its weight
     for (const auto& [kind, own] : weights) {
-        logarithms.push_back(log_sum(own));
         const auto form = forms.find(kind);
-        kinds.push_back({.kind = kind, .log_factor = form == forms.end() ? unset : form->second->log_factor});
+        kinds.emplace_back(log_sum(own),
+                           FollowedKind{.kind = kind, .log_factor = form == forms.end() ? unset : form->second->log_factor});
+    }
+    std::stable_sort(kinds.begin(), kinds.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    const RunTogether run_together(inference.errors().data().observations);
+    std::vector<double> logarithms;
+    for (const auto& [weight, one] : kinds) {
+        const auto as_heavy = std::find_if(kinds.begin(), kinds.end(), [&, kind = one.kind](const auto& heavier) {
+            return heavier.second.kind == kind || (!cause_fits && run_together(heavier.second.kind.axis, kind.axis));
+        });
+        logarithms.push_back(as_heavy->first);
     }
     const std::vector<double> posterior = probabilities_of(std::move(logarithms));
+    std::vector<FollowedKind> all;
     for (std::size_t k = 0; k < kinds.size(); ++k) {
-        kinds[k].posterior = posterior[k];
+        all.push_back(kinds[k].second);
+        all.back().posterior = posterior[k];
     }
-    std::stable_sort(kinds.begin(), kinds.end(),
-                     [](const FollowedKind& a, const FollowedKind& b) { return a.posterior > b.posterior; });
-    return kinds;
+    std::stable_sort(all.begin(), all.end(), [](const FollowedKind& a, const FollowedKind& b) { return a.posterior > b.posterior; });
+    return all;
 }
 
 Follows follows_of(const std::vector<FollowedKind>& kinds, const Comparison& comparison, const Inference& inference) {

@@ -21,12 +21,13 @@ const Mechanism* leading_member(const Hypothesis& hypothesis, const std::vector<
 /// a pause that shears. Nothing tells a loss in the contacts from a phase that the tool turns, as of an oil G'' alone is compared.
 bool is_separated(Kind kind, const Experiment& experiment);
 
-/// The same of a cause: what an oil shows, too, only an oil tells from what the sample does by itself.
+/// The same of a cause, of which more may be needed.
 bool is_separated(const Mechanism& cause, const Experiment& experiment);
 
 /// The kinds of departure, most probable first: by the causes of each, without what they leave over, and by its free form, which
-/// counts as much as a cause.
-std::vector<FollowedKind> kinds_of(const Comparison& comparison, const Experiment& experiment);
+/// counts as much as a cause. Where no cause fits, axes that run together in all rows are equally probable: any function of one is
+/// a function of the other, and that a law of the catalogue comes near it says nothing.
+std::vector<FollowedKind> kinds_of(const Comparison& comparison, const Inference& inference, bool cause_fits);
 
 /// The most probable kind, with what its free form at the base model says of it.
 Follows follows_of(const std::vector<FollowedKind>& kinds, const Comparison& comparison, const Inference& inference);

@@ -277,10 +277,10 @@ void judge(const Comparison& comparison, const Inference& inference, const Hypot
         place(*winner.discrepancy, inference.errors().data(), inference.fitted(inference.prediction(winner.discrepancy->fit.model)),
               diagnosis.remainder);
     }
-    diagnosis.kinds = kinds_of(comparison, inference.forward().experiment());
+    diagnosis.conditions = conditions_of(comparison, inference, priors, options, diagnosis.gain);
+    diagnosis.kinds = kinds_of(comparison, inference, fits(diagnosis.conditions));
     diagnosis.follows = follows_of(diagnosis.kinds, comparison, inference);
     diagnosis.follows.link_is_told = is_separated(diagnosis.follows.kind, inference.forward().experiment());
-    diagnosis.conditions = conditions_of(comparison, inference, priors, options, diagnosis.gain);
     rank_causes(comparison, inference, priors, diagnosis);
     diagnosis.certain = common_causes(diagnosis.credible_set, possible);
     diagnosis.verdict = verdict_of(diagnosis);

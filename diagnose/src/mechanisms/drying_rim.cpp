@@ -31,7 +31,8 @@ Mechanism drying_rim() {
             .kind = {Link::geometry, Axis::time},
             .parameters = {{"skin_growth", "N/(m.s)", 1e-7, 1, true}},
             .effect = ChangesGeometry{with_skin},
-            .applies = has_open_rim};
+            .applies = has_open_rim,
+            .told_apart = shows_rim};
 }
 
 }  // namespace coagula::diagnose::mechanisms

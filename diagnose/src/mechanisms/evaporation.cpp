@@ -35,7 +35,8 @@ Mechanism evaporation() {
             .kind = {Link::history, Axis::time},
             .parameters = {{"solvent_loss", "1/s", 1e-7, 1e-4, true}, {"modulus_exponent", "1", 2, 6, false}},
             .effect = ScalesMaterial{concentrated},
-            .applies = dries};
+            .applies = dries,
+            .told_apart = shows_rim};
 }
 
 }  // namespace coagula::diagnose::mechanisms

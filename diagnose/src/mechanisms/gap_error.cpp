@@ -22,7 +22,9 @@ Mechanism gap_error() {
             .effect = ChangesGeometry{[](std::complex<double> modulus, const Observation& row, Values values) {
                 return std::isfinite(row.gap) ? modulus * row.gap / std::max(row.gap + values[0], narrowest * row.gap) : modulus;
             }},
-            .applies = [](const Knows& knows) { return knows.gap && knows.geometry; }};
+            .applies = [](const Knows& knows) { return knows.gap && knows.geometry; },
+            // A sample may slip by a length that its modulus does not set, or be another at another gap.
+            .told_apart = [](const Knows& knows) { return gaps_differ(knows) && shows_oil(knows); }};
 }
 
 }  // namespace coagula::diagnose::mechanisms

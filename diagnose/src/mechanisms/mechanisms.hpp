@@ -34,6 +34,25 @@ inline bool strains_differ(const Knows& knows) {
     return differs(knows.experiment, [](const Measurement& table, std::size_t row) { return cell(table, "strain", row); });
 }
 
+inline bool gaps_differ(const Knows& knows) {
+    return differs(knows.experiment, [](const Measurement& table, std::size_t row) { return cell(table, "gap", row); });
+}
+
+inline bool radii_differ(const Knows& knows) {
+    return differs(knows.experiment, [](const Measurement& table, std::size_t row) { return cell(table, "plate_radius", row); });
+}
+
+/// Whether an oil was measured, which shows what the instrument does and nothing that a sample does by itself.
+inline bool shows_oil(const Knows& knows) {
+    return knows.experiment.material.kind == MaterialKind::newtonian ||
+           any_measurement(knows.experiment, [](const Measurement& table) { return std::isfinite(table.fluid_viscosity); });
+}
+
+/// Solvent that leaves at the rim stays under a trap, and is the less the wider the plates are.
+inline bool shows_rim(const Knows& knows) {
+    return radii_differ(knows) || any_measurement(knows.experiment, [](const Measurement& table) { return table.solvent_trap; });
+}
+
 /// A smooth viscosity may grow towards low rates in any way.
 inline bool flows_as_an_oil(const Knows& knows) {
     return knows.flow && knows.experiment.material.kind == MaterialKind::newtonian;

@@ -43,7 +43,9 @@ Mechanism normal_load() {
             .kind = {Link::history, Axis::normal_force},
             .parameters = {{"contact_pressure", "Pa", 100, 1e6, true}},
             .effect = ChangesGeometry{pressed},
-            .applies = shows_load};
+            .applies = shows_load,
+            // A tool that gives way to the force changes the gap, a small one the most.
+            .told_apart = gaps_differ};
 }
 
 }  // namespace coagula::diagnose::mechanisms

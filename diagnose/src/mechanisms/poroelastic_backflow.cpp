@@ -44,7 +44,8 @@ Mechanism poroelastic_backflow() {
         .kind = {Link::history, Axis::time},
         .parameters = {{"drained_growth", "1", 0.02, 0.5, true}, {"permeability_over_viscosity", "m2/(Pa s)", 1e-16, 1e-10, true}},
         .effect = ChangesGeometry{drained},
-        .applies = drains};
+        .applies = drains,
+        .told_apart = gaps_differ};
 }
 
 }  // namespace coagula::diagnose::mechanisms

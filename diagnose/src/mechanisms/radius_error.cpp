@@ -35,7 +35,9 @@ Mechanism radius_error() {
             .kind = {Link::geometry, Axis::radius},
             .parameters = {{"radius_error", "m", -1e-3, 1e-3, false}},
             .effect = ChangesGeometry{filled},
-            .applies = shows_radius};
+            .applies = shows_radius,
+            // Two plates with samples of their own differ by what the samples do.
+            .told_apart = [](const Knows& knows) { return radii_differ(knows) && shows_oil(knows); }};
 }
 
 }  // namespace coagula::diagnose::mechanisms

@@ -26,7 +26,8 @@ Mechanism sedimentation() {
             .kind = {Link::history, Axis::time},
             .parameters = {{"settled_difference", "1", 0, 0.05, false}, {"sedimentation_time", "s", 300, 1e5, true}},
             .effect = ScalesMaterial{settling},
-            .applies = settles_in_time};
+            .applies = settles_in_time,
+            .told_apart = gaps_differ};
 }
 
 }  // namespace coagula::diagnose::mechanisms

@@ -44,7 +44,12 @@ Mechanism wall_slip() {
             .kind = {Link::geometry, Axis::gap},
             .parameters = {{"slip_length_over_modulus", "m/Pa", 1e-12, 1e-7, true}},
             .effect = ChangesGeometry{slipping},
-            .applies = [](const Knows& knows) { return knows.walls && knows.geometry; }};
+            .applies = [](const Knows& knows) { return knows.walls && knows.geometry; },
+            .told_apart =
+                [](const Knows& knows) {
+                    return gaps_differ(knows) ||
+                           any_measurement(knows.experiment, [](const Measurement& table) { return table.rough_plates; });
+                }};
 }
 
 }  // namespace coagula::diagnose::mechanisms

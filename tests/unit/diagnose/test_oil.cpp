@@ -69,22 +69,5 @@ TEST(Oil, DoesNotTellALossFromAPhase) {
     EXPECT_FALSE(is_separated(*find_mechanism("contact-dashpot"), experiment));
 }
 
-/// A strain amplitude is no axis of a flow curve.
-TEST(FlowCurve, AnOffsetOfTheTorqueFollowsTheRate) {
-    Measurement curve;
-    curve.kind = MeasurementKind::flow_curve;
-    curve.columns = {{"shear_rate", "1/s", {0.1, 1, 10}}, {"viscosity", "Pa.s", {3, 1, 1}}};
-    const Experiment experiment = with({curve}, MaterialKind::newtonian);
-    const Mechanism* offset = find_mechanism("torque-offset");
-    EXPECT_TRUE(is_separated(*offset, experiment));
-    Comparison comparison;
-    comparison.all.resize(2);
-    comparison.all[0].fit.log_evidence = -1e3;
-    comparison.all[1].fit.hypothesis = {offset};
-    const Kind kind = kinds_of(comparison, experiment).front().kind;
-    EXPECT_EQ(kind.link, Link::tool);
-    EXPECT_EQ(kind.axis, Axis::shear_rate);
-}
-
 }  // namespace
 }  // namespace coagula::diagnose

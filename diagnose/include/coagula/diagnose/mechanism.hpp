@@ -126,6 +126,9 @@ struct Mechanism {
     Effect effect;
     /// Whether an experiment says what the mechanism needs (a gap, a plate radius), so that it can be a cause at all.
     bool (*applies)(const Knows& knows);
+    /// Whether an experiment holds what tells the mechanism from others that follow the same axis, also from those that the
+    /// catalogue does not have. Null: as its kind says.
+    bool (*told_apart)(const Knows& knows) = nullptr;
     /// A change of the material that needs no particles: a Newtonian fluid shows it, too.
     bool in_any_fluid = false;
     bool in_contact = false;  ///< `coagula shear --model` can run it
