@@ -204,7 +204,9 @@ std::vector<FollowedKind> kinds_of(const Comparison& comparison, const Inference
     std::vector<double> logarithms;
     for (const auto& [weight, one] : kinds) {
         const auto as_heavy = std::find_if(kinds.begin(), kinds.end(), [&, kind = one.kind](const auto& heavier) {
-            return heavier.second.kind == kind || (!cause_fits && run_together(heavier.second.kind.axis, kind.axis));
+            const Axis axis = heavier.second.kind.axis;
+            const bool passes = axis == Axis::time || axis == Axis::age;
+            return heavier.second.kind == kind || (!cause_fits && passes && run_together(axis, kind.axis));
         });
         logarithms.push_back(as_heavy->first);
     }

@@ -25,8 +25,8 @@ bool is_separated(Kind kind, const Experiment& experiment);
 bool is_separated(const Mechanism& cause, const Experiment& experiment);
 
 /// The kinds of departure, most probable first: by the causes of each, without what they leave over, and by its free form, which
-/// counts as much as a cause. Where no cause fits, axes that run together in all rows are equally probable: any function of one is
-/// a function of the other, and that a law of the catalogue comes near it says nothing.
+/// counts as much as a cause. Where no cause fits, what was set in such an order that it runs with the time in all rows is as
+/// probable as that: any function of one is a function of the other, and time passes beside whatever is set.
 std::vector<FollowedKind> kinds_of(const Comparison& comparison, const Inference& inference, bool cause_fits);
 
 /// The most probable kind, with what its free form at the base model says of it.
