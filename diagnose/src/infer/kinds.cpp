@@ -110,7 +110,7 @@ public:
         constexpr double nearly = 0.98;
         const Eigen::ArrayXd one = places(a);
         const Eigen::ArrayXd other = places(b);
-        if (a == b || one.size() == 0 || other.size() == 0) {
+        if (coordinate_along(a) == coordinate_along(b) || one.size() == 0 || other.size() == 0) {
             return false;
         }
         const double squares = one.square().sum() * other.square().sum();
@@ -216,7 +216,8 @@ std::vector<FollowedKind> kinds_of(const Comparison& comparison, const Inference
         all.push_back(kinds[k].second);
         all.back().posterior = posterior[k];
     }
-    std::stable_sort(all.begin(), all.end(), [](const FollowedKind& a, const FollowedKind& b) { return a.posterior > b.posterior; });
+    std::stable_sort(all.begin(), all.end(),
+                     [](const FollowedKind& a, const FollowedKind& b) { return a.posterior > b.posterior; });
     return all;
 }
 

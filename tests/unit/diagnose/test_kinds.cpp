@@ -20,9 +20,12 @@ Measurement time_sweep(const std::string& sample, double gap, double plate_radiu
     table.label = table.sample = sample;
     const std::vector<double> six(6, 1.0);
     const auto all = [&](double value) { return std::vector<double>(six.size(), value); };
-    table.columns = {{"time", "s", {10, 30, 100, 300, 1000, 3000}}, {"storage_modulus", "Pa", {1000, 1010, 1030, 1060, 1090, 1100}},
-                     {"loss_modulus", "Pa", all(100)},             {"angular_frequency", "rad/s", all(6)},
-                     {"gap", "m", all(gap)},                       {"plate_radius", "m", all(plate_radius)}};
+    table.columns = {{"time", "s", {10, 30, 100, 300, 1000, 3000}},
+                     {"storage_modulus", "Pa", {1000, 1010, 1030, 1060, 1090, 1100}},
+                     {"loss_modulus", "Pa", all(100)},
+                     {"angular_frequency", "rad/s", all(6)},
+                     {"gap", "m", all(gap)},
+                     {"plate_radius", "m", all(plate_radius)}};
     return table;
 }
 
@@ -138,6 +141,13 @@ TEST(Kinds, AxesThatRunTogetherAreNotTold) {
         std::swap(column.values[2], column.values[5]);
     }
     EXPECT_GT(kinds_by("loading-relaxation", with({series}), false).front().posterior, 0.99) << "in no order";
+}
+
+/// The time since the filling and that since a shear are no two axes.
+TEST(Kinds, AgeAndTimeAreOneAxis) {
+    const std::vector<FollowedKind> kinds = kinds_by("ageing-after-shear", with({time_sweep("A", 1e-3)}), false);
+    EXPECT_EQ(kinds.front().kind, (Kind{Link::history, Axis::age}));
+    EXPECT_GT(kinds.front().posterior, 0.99);
 }
 
 /// At one gap slip acts by the modulus, which the frequency changes; an error of the gap is one factor.
