@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/report/data_notes.hpp>
+#include <coagula/report/diagnosis_page.hpp>
 #include <coagula/report/diagnosis_results.hpp>
 
 #include "finding_sentences.hpp"
@@ -282,6 +283,8 @@ Table table_of(const Diagnosis& diagnosis) {
         const diagnose::Proposal& first = diagnosis.proposals.front();
         lines.emplace_back("measure next",
                            words_for(first) + "   (decides with probability " + probability_text(first.resolution) + ")");
+    } else if (const std::string by = what_separates(diagnosis); !by.empty()) {
+        lines.emplace_back("measure next", by);
     }
     return lines;
 }

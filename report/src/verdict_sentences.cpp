@@ -196,6 +196,22 @@ std::string size_text(const diagnose::Follows& follows, const std::string& unit)
 
 }  // namespace
 
+std::string what_separates(const Diagnosis& found) {
+    const Cause* best = best_cause(found);
+    const bool missing = std::any_of(found.conditions.begin(), found.conditions.end(), [](const diagnose::Condition& condition) {
+        return condition.name == "separated" && !condition.holds;
+    });
+    if (best == nullptr || !missing) {
+        return "";
+    }
+    for (const std::size_t member : best->set.members) {
+        if (const std::string& by = diagnose::catalogue()[member].told_apart.by; !by.empty()) {
+            return by;
+        }
+    }
+    return "";
+}
+
 std::string chance_text(const Diagnosis& found) {
     return (is_least_p(found) ? "p ≤ " : "p = ") + print_number(found.p_value);
 }
@@ -270,7 +286,8 @@ std::vector<std::string> verdict_sentences(const Diagnosis& found) {
     } else if (found.detected && found.verdict != Verdict::named) {
         const auto& of_base = found.base.parameters;
         const bool of_oil = !of_base.empty() && of_base.front().name == "viscosity";
-        sentences.emplace_back(advice(found.follows.kind, of_oil));
+        const std::string by = what_separates(found);
+        sentences.push_back(by.empty() ? advice(found.follows.kind, of_oil) : "To name it, measure " + by + ".");
     }
     return sentences;
 }

@@ -132,7 +132,8 @@ private:
     mutable std::map<Coordinate, Eigen::ArrayXd> places_;
 };
 
-/// The same of a cause. Where gap and plate are the same in all rows, what depends on the modulus besides follows the frequency.
+/// The kind of a cause as far as an experiment tells it. Where gap and plate are the same in all rows, what depends on the modulus
+/// besides follows the frequency.
 Kind told_kind(const Mechanism& cause, const Inference& inference) {
     const Experiment& experiment = inference.forward().experiment();
     const std::vector<Observation>& observations = inference.errors().data().observations;
@@ -178,7 +179,8 @@ bool is_separated(Kind kind, const Experiment& experiment) {
 }
 
 bool is_separated(const Mechanism& cause, const Experiment& experiment) {
-    return is_separated(cause.kind, experiment) && (cause.told_apart == nullptr || cause.told_apart(knowledge_of(experiment)));
+    return is_separated(cause.kind, experiment) &&
+           (cause.told_apart.holds == nullptr || cause.told_apart.holds(knowledge_of(experiment)));
 }
 
 std::vector<FollowedKind> kinds_of(const Comparison& comparison, const Inference& inference, bool cause_fits) {

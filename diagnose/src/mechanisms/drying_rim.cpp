@@ -32,7 +32,7 @@ Mechanism drying_rim() {
             .parameters = {{"skin_growth", "N/(m.s)", 1e-7, 1, true}},
             .effect = ChangesGeometry{with_skin},
             .applies = has_open_rim,
-            .told_apart = shows_rim};
+            .told_apart = {shows_rim, "fresh samples under a solvent trap or between plates of another radius"}};
 }
 
 }  // namespace coagula::diagnose::mechanisms

@@ -36,7 +36,7 @@ Mechanism evaporation() {
             .parameters = {{"solvent_loss", "1/s", 1e-7, 1e-4, true}, {"modulus_exponent", "1", 2, 6, false}},
             .effect = ScalesMaterial{concentrated},
             .applies = dries,
-            .told_apart = shows_rim};
+            .told_apart = {shows_rim, "fresh samples under a solvent trap or between plates of another radius"}};
 }
 
 }  // namespace coagula::diagnose::mechanisms

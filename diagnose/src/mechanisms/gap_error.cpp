@@ -24,7 +24,8 @@ Mechanism gap_error() {
             }},
             .applies = [](const Knows& knows) { return knows.gap && knows.geometry; },
             // A sample may slip by a length that its modulus does not set, or be another at another gap.
-            .told_apart = [](const Knows& knows) { return gaps_differ(knows) && shows_oil(knows); }};
+            .told_apart = {[](const Knows& knows) { return gaps_differ(knows) && shows_oil(knows); },
+                           "an oil of known viscosity at the same gaps"}};
 }
 
 }  // namespace coagula::diagnose::mechanisms

@@ -45,7 +45,7 @@ Mechanism normal_load() {
             .effect = ChangesGeometry{pressed},
             .applies = shows_load,
             // A tool that gives way to the force changes the gap, a small one the most.
-            .told_apart = gaps_differ};
+            .told_apart = {gaps_differ, "fresh samples at two other gaps, with the normal force"}};
 }
 
 }  // namespace coagula::diagnose::mechanisms

@@ -45,7 +45,7 @@ Mechanism poroelastic_backflow() {
         .parameters = {{"drained_growth", "1", 0.02, 0.5, true}, {"permeability_over_viscosity", "m2/(Pa s)", 1e-16, 1e-10, true}},
         .effect = ChangesGeometry{drained},
         .applies = drains,
-        .told_apart = gaps_differ};
+        .told_apart = {gaps_differ, "fresh samples at two other gaps"}};
 }
 
 }  // namespace coagula::diagnose::mechanisms

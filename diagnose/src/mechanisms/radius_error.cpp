@@ -37,7 +37,8 @@ Mechanism radius_error() {
             .effect = ChangesGeometry{filled},
             .applies = shows_radius,
             // Two plates with samples of their own differ by what the samples do.
-            .told_apart = [](const Knows& knows) { return radii_differ(knows) && shows_oil(knows); }};
+            .told_apart = {[](const Knows& knows) { return radii_differ(knows) && shows_oil(knows); },
+                           "an oil of known viscosity between the same plates"}};
 }
 
 }  // namespace coagula::diagnose::mechanisms

@@ -27,7 +27,7 @@ Mechanism sedimentation() {
             .parameters = {{"settled_difference", "1", 0, 0.05, false}, {"sedimentation_time", "s", 300, 1e5, true}},
             .effect = ScalesMaterial{settling},
             .applies = settles_in_time,
-            .told_apart = gaps_differ};
+            .told_apart = {gaps_differ, "fresh samples at two other gaps"}};
 }
 
 }  // namespace coagula::diagnose::mechanisms

@@ -23,7 +23,7 @@ Mechanism temperature_drift() {
             .parameters = {{"start_difference", "1", -0.3, 0.3, false}, {"settling_time", "s", 60, 3000, true}},
             .effect = ScalesMaterial{.factor = drifting, .in_oil = true},
             .applies = [](const Knows& knows) { return knows.clock; },
-            .told_apart = shows_oil,
+            .told_apart = {shows_oil, "an oil that is filled as the sample is"},
             .in_any_fluid = true};
 }
 

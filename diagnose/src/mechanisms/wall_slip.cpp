@@ -35,6 +35,14 @@ Complex slipping(Complex modulus, const Observation& row, Values values) {
     return std::isfinite(row.gap) ? modulus / (1.0 + 2.0 * values[0] * modulus / row.gap) : modulus;
 }
 
+bool can_slip(const Knows& knows) {
+    return knows.walls && knows.geometry && knows.experiment.material.kind != MaterialKind::newtonian;
+}
+
+bool shows_walls(const Knows& knows) {
+    return gaps_differ(knows) || any_measurement(knows.experiment, [](const Measurement& table) { return table.rough_plates; });
+}
+
 }  // namespace
 
 Mechanism wall_slip() {
@@ -44,12 +52,8 @@ Mechanism wall_slip() {
             .kind = {Link::geometry, Axis::gap},
             .parameters = {{"slip_length_over_modulus", "m/Pa", 1e-12, 1e-7, true}},
             .effect = ChangesGeometry{slipping},
-            .applies = [](const Knows& knows) { return knows.walls && knows.geometry; },
-            .told_apart =
-                [](const Knows& knows) {
-                    return gaps_differ(knows) ||
-                           any_measurement(knows.experiment, [](const Measurement& table) { return table.rough_plates; });
-                }};
+            .applies = can_slip,
+            .told_apart = {shows_walls, "fresh samples at two other gaps or between rough plates"}};
 }
 
 }  // namespace coagula::diagnose::mechanisms

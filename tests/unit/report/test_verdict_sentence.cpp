@@ -143,5 +143,24 @@ TEST(VerdictSentence, ACauseOrOneThatNobodyKnows) {
               "look-alikes outside the catalogue. The cause may be another one, which the catalogue does not have.");
 }
 
+/// A cause says itself what tells it from others.
+TEST(VerdictSentence, WhatTellsACauseFromItsLookAlikes) {
+    diagnose::Diagnosis found;
+    found.detected = true;
+    found.verdict = diagnose::Verdict::tied;
+    found.credible_set = {causes({"gap-error"}), unknown()};
+    diagnose::Cause cause;
+    cause.set = causes({"gap-error"});
+    found.causes = {cause};
+    found.best = cause.set;
+    found.follows.kind = {diagnose::Link::geometry, diagnose::Axis::gap};
+    found.conditions = {{"separated", 0, 1, false}};
+    EXPECT_EQ(what_separates(found), "an oil of known viscosity at the same gaps");
+    EXPECT_EQ(verdict_sentences(found).back(), "To name it, measure an oil of known viscosity at the same gaps.");
+    found.conditions.front().holds = true;
+    EXPECT_EQ(what_separates(found), "");
+    EXPECT_EQ(verdict_sentences(found).back().find("To name it"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace coagula::report

@@ -116,6 +116,12 @@ struct Kind {
     auto operator<=>(const Kind&) const = default;  // NOLINT(modernize-use-nullptr): a false alarm of clang-tidy 14
 };
 
+/// This tells a mechanism from others that follow the same axis, also from those that the catalogue does not have.
+struct Separation {
+    bool (*holds)(const Knows& knows) = nullptr;  ///< whether an experiment has it; null: as the kind of the mechanism says
+    std::string by = {};                          ///< what to measure, in words
+};
+
 /// One cause.
 struct Mechanism {
     std::string name;       ///< "bond-bending"
@@ -126,9 +132,7 @@ struct Mechanism {
     Effect effect;
     /// Whether an experiment says what the mechanism needs (a gap, a plate radius), so that it can be a cause at all.
     bool (*applies)(const Knows& knows);
-    /// Whether an experiment holds what tells the mechanism from others that follow the same axis, also from those that the
-    /// catalogue does not have. Null: as its kind says.
-    bool (*told_apart)(const Knows& knows) = nullptr;
+    Separation told_apart = {};
     /// A change of the material that needs no particles: a Newtonian fluid shows it, too.
     bool in_any_fluid = false;
     bool in_contact = false;  ///< `coagula shear --model` can run it
