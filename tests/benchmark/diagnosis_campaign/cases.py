@@ -8,6 +8,7 @@ import numpy
 from days import (GAP, PLATE, full_day, gap_day, gaps_day, gradual_day, level_day, long_day, one_sample, plates_day, radii_day, rates_day, rest_day, tool_day,
                   up_and_down, wide_strains, yield_day)
 from material import CONTACTS, DRAGGED, KNOWN, LOADS, RUPTURE_LOAD, STRUCTURES, SWEEP_ROWS
+from relaxations import null_relaxation
 from series import Series
 from session import Hidden, Noise, Session
 
@@ -333,7 +334,7 @@ ROWS = {"null": null, "null-tails": null_tails, "null-correlated": null_correlat
         "pair": pair, "tie": tie, "outside": outside, "null-series": null_series, "structure-series": structure_series,
         "tie-level": tie_of_level, "tie-stiffening": tie_of_stiffening, "tie-yield": tie_of_yield,
         "bond-strength-cone": bond_strength_under_cone, "wrong-rows": with_faults(Noise(wrong_rows=2)), "slid-sample": with_faults(Noise(slid="B")),
-        "null-one-sample": null_one_sample, "drag": drag, "contacts-removed": misstated("contacts-removed"),
+        "null-one-sample": null_one_sample, "null-relaxation": null_relaxation, "drag": drag, "contacts-removed": misstated("contacts-removed"),
         "volume-fraction": misstated("volume-fraction"), "negative-storage": negative_storage, "bump": with_bump,
         "activated-rupture": rupture("activated-rupture", (1.5, 2.0)), "bond-strength-rates": rupture("bond-strength", (1.0,)),
         "missing-contacts": missing_contacts, "sedimentation": between_gaps("sedimentation"),

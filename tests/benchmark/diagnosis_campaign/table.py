@@ -13,7 +13,7 @@ import shown_cases
 from open_set import add_open_set
 
 
-NULLS = ("null", "null-tails", "null-correlated", "null-offsets", "null-one-sample", "null-series", "null-coordinates", "null-pores")
+NULLS = ("null", "null-tails", "null-correlated", "null-offsets", "null-one-sample", "null-relaxation", "null-series", "null-coordinates", "null-pores")
 TIES = {"tie": "tie of slip and gap", "tie-level": "tie of the level", "tie-stiffening": "tie of time and strain", "tie-yield": "tie of yield"}
 MIXED = ("single", "contact-loss", "ageing", "tool-compliance", "tool-inertia")
 BREAKING = ("bond-strength", "bond-strength-cone")
