@@ -15,11 +15,11 @@ namespace coagula::diagnose {
 /// decade that was measured.
 ///
 /// Along the frequency the functions are a spring, a dashpot and Maxwell elements, so that G' and G'' belong to one relaxation
-/// spectrum (Ferry 1980, ch. 3), which no material has below zero: these coefficients are not negative. Each of them is as large as
-/// |G*| at its frequency. Along the logarithm of the strain they are
-/// bumps of each modulus, as large as the median of |G*|, and so they are along the logarithm of the age. The strain counts where
-/// it was set, not where it follows from a stress. In steady flow they are bumps of the viscosity along the logarithm of the shear
-/// rate, as large as the viscosity there.
+/// spectrum (Ferry 1980, ch. 3). A few elements beyond either end relax slower or faster than was measured; their coefficients are
+/// not negative, as no spectrum is: less than nothing of a fast one would be an inertia. Each element is as large as |G*| at its
+/// frequency. Along the logarithm of the strain they are bumps of each modulus, as large as the median of |G*|, and so they are
+/// along the logarithm of the age. The strain counts where it was set, not where it follows from a stress. In steady flow they are
+/// bumps of the viscosity along the logarithm of the shear rate, as large as the viscosity there.
 ///
 /// The common size of the coefficients is known from a few degrees of freedom only.
 class SmoothMaterial {
