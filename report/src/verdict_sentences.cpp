@@ -198,18 +198,16 @@ std::string size_text(const diagnose::Follows& follows, const std::string& unit)
 
 std::string what_separates(const Diagnosis& found) {
     const Cause* best = best_cause(found);
-    const bool missing = std::any_of(found.conditions.begin(), found.conditions.end(), [](const diagnose::Condition& condition) {
-        return condition.name == "separated" && !condition.holds;
-    });
-    if (best == nullptr || !missing) {
-        return "";
+    if (best == nullptr || best->set.members.size() != 1) {
+        return "";  // of a pair one member may be told apart
     }
-    for (const std::size_t member : best->set.members) {
-        if (const std::string& by = diagnose::catalogue()[member].told_apart.by; !by.empty()) {
-            return by;
+    std::vector<std::string> missing;
+    for (const diagnose::Condition& condition : found.conditions) {
+        if (!condition.holds) {
+            missing.push_back(condition.name);
         }
     }
-    return "";
+    return missing == std::vector<std::string>{"separated"} ? diagnose::catalogue()[best->set.members.front()].told_apart.by : "";
 }
 
 std::string chance_text(const Diagnosis& found) {

@@ -157,7 +157,9 @@ TEST(VerdictSentence, WhatTellsACauseFromItsLookAlikes) {
     found.conditions = {{"separated", 0, 1, false}};
     EXPECT_EQ(what_separates(found), "an oil of known viscosity at the same gaps");
     EXPECT_EQ(verdict_sentences(found).back(), "To name it, measure an oil of known viscosity at the same gaps.");
-    found.conditions.front().holds = true;
+    found.conditions.push_back({"little-left", 1, 0, false});
+    EXPECT_EQ(what_separates(found), "") << "an oil alone would not name it";
+    found.conditions = {{"separated", 1, 1, true}};
     EXPECT_EQ(what_separates(found), "");
     EXPECT_EQ(verdict_sentences(found).back().find("To name it"), std::string::npos);
 }

@@ -31,8 +31,8 @@ std::string verdict_sentence(const diagnose::Diagnosis& found);
 /// That, then what the best cause leaves over and what to measure next, where there is such.
 std::vector<std::string> verdict_sentences(const diagnose::Diagnosis& found);
 
-/// What to measure that tells the best cause from look-alikes, in words, where nothing does and the cause says what would; else
-/// empty.
+/// Says what to measure that tells the best cause from look-alikes, where a single cause lacks nothing else to a name and says what
+/// would; else empty.
 std::string what_separates(const diagnose::Diagnosis& found);
 
 /// HTML.
