@@ -71,22 +71,21 @@ public:
         const double low = frequencies.minCoeff();
         const double high = frequencies.maxCoeff();
         const int elements = 1 + static_cast<int>(std::lround(elements_per_decade * std::log10(high / low)));
-        std::vector<double> places;
-        for (int k = beyond; k > 0; --k) {
-            places.push_back(low * std::pow(10, -k / beyond_per_decade));
-        }
-        for (int k = 0; k < elements; ++k) {
-            places.push_back(low * std::pow(high / low, static_cast<double>(k) / std::max(1, elements - 1)));
-        }
-        for (int k = 1; k <= beyond; ++k) {
-            places.push_back(high * std::pow(10, k / beyond_per_decade));
-        }
         double size = size_at(frequencies, low);  // does not fall with the frequency, whatever an instrument shows
         add(Eigen::ArrayXcd::Constant(frequencies.size(), size));
-        for (const double place : places) {
+        const auto add_element = [&](double place, bool not_negative) {
             const Eigen::ArrayXcd product = Complex(0, 1) * frequencies / place;
             size = std::max(size, size_at(frequencies, place));
-            add(size * product / (1 + product), place < 0.99 * low || place > 1.01 * high);  // the ends may differ by rounding
+            add(size * product / (1 + product), not_negative);
+        };
+        for (int k = beyond; k > 0; --k) {
+            add_element(low * std::pow(10, -k / beyond_per_decade), true);
+        }
+        for (int k = 0; k < elements; ++k) {
+            add_element(low * std::pow(high / low, static_cast<double>(k) / std::max(1, elements - 1)), false);
+        }
+        for (int k = 1; k <= beyond; ++k) {
+            add_element(high * std::pow(10, k / beyond_per_decade), true);
         }
         add(Complex(0, size / high) * frequencies);
     }
@@ -184,7 +183,7 @@ Eigen::VectorXd minimum(const Eigen::MatrixXd& normal, const Eigen::VectorXd& ri
     const double noticeable = 1e-10 * right.cwiseAbs().maxCoeff();
     Flags free = !not_negative || x.array() > 0;
     for (Index round = 0; round < 5 * x.size(); ++round) {
-        // What is not free is held at zero.
+        // Those coefficients that are not free are held at zero.
         const Eigen::VectorXd chosen = free.cast<double>();
         Eigen::MatrixXd of_free = chosen.asDiagonal() * normal * chosen.asDiagonal();
         of_free.diagonal() += Eigen::VectorXd::Ones(x.size()) - chosen;

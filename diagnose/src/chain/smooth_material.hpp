@@ -36,7 +36,7 @@ public:
     /// The coefficients that meet the data best.
     /// @param seen what the instrument shows at `coefficients`. @param changes how that grows with each coefficient, in columns.
     Eigen::VectorXd best(const Eigen::VectorXd& coefficients, const Eigen::VectorXd& seen, const Eigen::MatrixXd& changes) const;
-    /// Those coefficients that would be negative if they could.
+    /// Returns the numbers of those coefficients that would be negative if they could.
     std::vector<Eigen::Index> at_end(const Eigen::VectorXd& coefficients) const;
 
 private:

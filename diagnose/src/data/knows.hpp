@@ -52,6 +52,20 @@ bool differs(const Experiment& experiment, const OfRow& of_row) {
     return !all.empty() && *all.rbegin() > 1.05 * *all.begin();
 }
 
+/// The same of a column.
+inline bool column_differs(const Experiment& experiment, std::string_view column) {
+    return differs(experiment, [&](const Measurement& table, std::size_t row) { return cell(table, column, row); });
+}
+
+/// Whether an oil of known viscosity was measured beside the sample.
+inline bool has_oil(const Experiment& experiment) {
+    return any_measurement(experiment, [](const Measurement& table) { return std::isfinite(table.fluid_viscosity); });
+}
+
+inline bool has_trap(const Experiment& experiment) {
+    return any_measurement(experiment, [](const Measurement& table) { return table.solvent_trap; });
+}
+
 /// Whether a column of a table varies by more than a twentieth.
 bool varies(const Measurement& table, std::string_view name);
 

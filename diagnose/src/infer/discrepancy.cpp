@@ -152,7 +152,6 @@ Fit moved_fit(const Inference& inference, const Start& start, const Followed& be
     const Eigen::VectorXd rest = middle.tail(middle.size() - 1);
     Fit fit = start.fit;
     fit.model = Model(fit.hypothesis, Values(rest.data(), static_cast<std::size_t>(rest.size())), middle[0]);
-    fit.log_density = inference.errors().log_density(inference.prediction(fit.model));
     for (std::size_t k = 0; k < start.follow.size(); ++k) {
         const double sigma = deviation[static_cast<Index>(k)];
         const double value = middle[start.follow[k]];
@@ -257,6 +256,7 @@ Discrepancy find_discrepancy(const Inference& inference, const Fit& fit, const S
         at_best = followed(inference, start, found.factor);
     }
     found.fit = moved_fit(inference, start, at_best);
+    found.fit.log_density = errors.log_density(inference.prediction(found.fit.model));
     found.fit.draws = draws_of(inference, start, at_best);
     found.directions = errors.data().noise.whitened(found.factor);
     found.departure = at_best.departure;

@@ -92,56 +92,46 @@ private:
 
     bool goes_along(Coordinate coordinate) const { return rank_along(data_.observations, coordinate).maxCoeff() > 0; }
 
-    void add(Kind kind, const Eigen::VectorXd& scale, const std::vector<Eigen::VectorXd>& ranks, double length) {
+    void add(Kind kind, const Eigen::VectorXd& scale, const std::vector<Eigen::VectorXd>& ranks, double length,
+             bool since_first = false) {
         for (const Departing departing : {Departing::storage, Departing::loss, Departing::both}) {
-            const Eigen::MatrixXd factor = smooth_factor(data_.observations, departing, ranks, false, length);
-            if (factor.cols() > 0 && !scale.isZero(0)) {
+            Eigen::MatrixXd factor = smooth_factor(data_.observations, departing, ranks, false, length);
+            if (since_first) {
+                subtract_earliest(ranks.front(), factor);
+            }
+            if (!factor.isZero(1e-6) && !scale.isZero(0)) {
                 found_[kind].emplace_back(scale.asDiagonal() * factor);
             }
         }
     }
 
-    /// Smooth in time from the earliest row on: what is there from the beginning is no course in time.
-    void add_course(Kind kind, const Eigen::VectorXd& scale) {
-        const Eigen::VectorXd rank = rank_along(data_.observations, Coordinate::time);
-        for (const double length : smooth_lengths) {
-            for (const Departing departing : {Departing::storage, Departing::loss, Departing::both}) {
-                const Eigen::MatrixXd factor =
-                    since_earliest(smooth_factor(data_.observations, departing, {rank}, false, length), rank);
-                if (factor.size() > 0 && factor.cwiseAbs().maxCoeff() > 1e-6 && !scale.isZero(0)) {
-                    found_[kind].emplace_back(scale.asDiagonal() * factor);
-                }
+    /// Takes off what each observable has in its earliest row.
+    void subtract_earliest(const Eigen::VectorXd& rank, Eigen::MatrixXd& factor) const {
+        std::map<const Observable*, std::vector<Index>> rows;
+        for (Index row = 0; row < factor.rows(); ++row) {
+            if (!factor.row(row).isZero(0)) {
+                rows[&observable_of(data_.observations[static_cast<std::size_t>(row)])].push_back(row);
             }
+        }
+        for (const auto& [observable, own] : rows) {
+            const Index earliest = *std::min_element(own.begin(), own.end(), [&](Index a, Index b) { return rank[a] < rank[b]; });
+            const Eigen::RowVectorXd first = factor.row(earliest);
+            factor(own, Eigen::all).rowwise() -= first;
         }
     }
 
-    /// Less what it is in the earliest row of its kind, where it departs.
-    Eigen::MatrixXd since_earliest(Eigen::MatrixXd factor, const Eigen::VectorXd& rank) const {
-        for (const bool loss : {false, true}) {
-            std::vector<Index> rows;
-            for (Index row = 0; row < factor.rows(); ++row) {
-                if (is_loss(data_.observations[static_cast<std::size_t>(row)]) == loss && !factor.row(row).isZero(0)) {
-                    rows.push_back(row);
-                }
-            }
-            const auto earliest = std::min_element(rows.begin(), rows.end(), [&](Index a, Index b) { return rank[a] < rank[b]; });
-            if (earliest != rows.end()) {
-                const Eigen::RowVectorXd first = factor.row(*earliest);
-                factor(rows, Eigen::all).rowwise() -= first;
-            }
-        }
-        return factor;
-    }
-
-    /// Smooth along a coordinate, of G', of G'' or of both apart.
-    void add_smooth(Kind kind, const Eigen::VectorXd& scale, Coordinate coordinate) {
+    /// Smooth along a coordinate, of G', of G'' or of both apart. @param since_first from nothing in the earliest row on.
+    void add_smooth(Kind kind, const Eigen::VectorXd& scale, Coordinate coordinate, bool since_first = false) {
         const Eigen::VectorXd rank = rank_along(data_.observations, coordinate);
         for (const double length : smooth_lengths) {
             if (rank.maxCoeff() > 0) {
-                add(kind, scale, {rank}, length);
+                add(kind, scale, {rank}, length, since_first);
             }
         }
     }
+
+    /// A departure that is there from the beginning is no course in time.
+    void add_course(Kind kind, const Eigen::VectorXd& scale) { add_smooth(kind, scale, Coordinate::time, true); }
 
     void add_constant(Kind kind, const Eigen::VectorXd& scale) { add(kind, scale, {}, 1); }
 
@@ -264,6 +254,13 @@ double change_along(const Eigen::VectorXd& rank, const std::vector<Observation>&
 
 }  // namespace
 
+Coordinate coordinate_along(Axis axis) {
+    const Axis shown = axis == Axis::age ? Axis::time : axis;
+    const auto known = std::find_if(factors_on_modulus.begin(), factors_on_modulus.end(),
+                                    [&](const auto& one) { return one.second.axis == shown; });
+    return known == factors_on_modulus.end() ? Coordinate::none : known->first;
+}
+
 Follows followed_by(const FreeForm& form, const DataSet& data, const Eigen::VectorXd& prediction) {
     const Eigen::ArrayXd share = form.departure.array() / complex_moduli(data.observations, prediction).max(1e-300);
     Follows follows{.kind = form.kind, .largest = mean_of_largest(share)};
@@ -271,14 +268,13 @@ Follows followed_by(const FreeForm& form, const DataSet& data, const Eigen::Vect
         std::tie(follows.sample, follows.change) = most_apart(data, share);
         return follows;
     }
-    const auto known = std::find_if(factors_on_modulus.begin(), factors_on_modulus.end(),
-                                    [&](const auto& one) { return one.second.axis == form.kind.axis; });
-    if (known == factors_on_modulus.end()) {
+    const Coordinate along = coordinate_along(form.kind.axis);
+    if (along == Coordinate::none) {
         follows.change = follows.largest;
         return follows;
     }
-    std::tie(follows.from, follows.to) = ends_of(data.observations, known->first);
-    follows.change = change_along(rank_along(data.observations, known->first), data.observations, share);
+    std::tie(follows.from, follows.to) = ends_of(data.observations, along);
+    follows.change = change_along(rank_along(data.observations, along), data.observations, share);
     return follows;
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "hypothesis.hpp"
+#include "observables/coordinate.hpp"
 
 #include <coagula/diagnose/diagnosis.hpp>
 
@@ -20,6 +21,9 @@ struct FreeForm {
     double log_factor = 0;           ///< on the evidence of the base model, averaged over amplitudes, lengths and shapes
     Eigen::VectorXd departure = {};  ///< most probable one of the best, of every number [its unit]
 };
+
+/// The coordinate that an axis is; an age is a time. None of those that are no coordinate of a row.
+Coordinate coordinate_along(Axis axis);
 
 /// States how large a departure of this form is, and the ends of its axis.
 /// @param prediction of the base model, of every number.

@@ -21,22 +21,9 @@ namespace coagula::diagnose {
 
 namespace {
 
-template <class OfTable>
-bool any_table(const Experiment& experiment, const OfTable& has) {
-    return std::any_of(experiment.measurements.begin(), experiment.measurements.end(), has);
-}
-
-bool column_differs(const Experiment& experiment, const char* column) {
-    return differs(experiment, [&](const Measurement& table, std::size_t row) { return cell(table, column, row); });
-}
-
 /// Whether gaps or plates differ.
 bool plates_differ(const Experiment& experiment) {
     return column_differs(experiment, "gap") || column_differs(experiment, "plate_radius");
-}
-
-bool has_oil(const Experiment& experiment) {
-    return any_table(experiment, [](const Measurement& table) { return std::isfinite(table.fluid_viscosity); });
 }
 
 /// Whether what plates or tool do to a modulus is a factor that does not depend on it.
@@ -47,10 +34,13 @@ bool is_proportional(const Mechanism& mechanism, const std::vector<Observation>&
     }
     const auto holds = [&](const auto& effect) {
         return std::all_of(observations.begin(), observations.end(), [&](const Observation& row) {
+            if (!is<Modulus>(row)) {
+                return true;
+            }
             const double size = std::abs(row.value);
             const std::complex<double> once = effect.apparent({size, size}, row, middle);
             const std::complex<double> twice = effect.apparent({2 * size, 2 * size}, row, middle);
-            return !is<Modulus>(row) || std::abs(twice - 2.0 * once) <= 1e-6 * std::abs(twice);
+            return std::abs(twice - 2.0 * once) <= 1e-6 * std::abs(twice);
         });
     };
     const auto* geometry = std::get_if<ChangesGeometry>(&mechanism.effect);
@@ -62,8 +52,8 @@ bool is_proportional(const Mechanism& mechanism, const std::vector<Observation>&
 /// what they do along the strain to a material that may soften in any way is that; along a gap or a radius that is one there is no
 /// axis.
 Kind told_kind(Kind kind, const Experiment& experiment) {
-    const bool flows_alone = any_table(experiment, [](const Measurement& table) { return is_flow(table.kind); }) &&
-                             !any_table(experiment, [](const Measurement& table) { return has_moduli(table.kind); });
+    const bool flows_alone = any_measurement(experiment, [](const Measurement& table) { return is_flow(table.kind); }) &&
+                             !any_measurement(experiment, [](const Measurement& table) { return has_moduli(table.kind); });
     if (kind.axis == Axis::strain && flows_alone) {
         return {kind.link, Axis::shear_rate};  // which a strain amplitude is not
     }
@@ -80,57 +70,24 @@ Kind told_kind(Kind kind, const Experiment& experiment) {
                                                     : kind;
 }
 
-/// The coordinate that an axis is.
-Coordinate coordinate_along(Axis axis) {
-    switch (axis) {
-        case Axis::time:
-        case Axis::age:
-            return Coordinate::time;
-        case Axis::strain:
-            return Coordinate::strain;
-        case Axis::frequency:
-            return Coordinate::angular_frequency;
-        case Axis::shear_rate:
-            return Coordinate::shear_rate;
-        case Axis::gap:
-            return Coordinate::gap;
-        case Axis::radius:
-            return Coordinate::plate_radius;
-        default:
-            return Coordinate::none;
+/// Whether two axes rise and fall together in all rows, so that a function of one is one of the other. A row that has no place
+/// along an axis counts as its lowest.
+bool run_together(const std::vector<Observation>& observations, Axis a, Axis b) {
+    constexpr double nearly = 0.98;
+    const Coordinate one = coordinate_along(a);
+    const Coordinate other = coordinate_along(b);
+    if (one == other || one == Coordinate::none || other == Coordinate::none) {
+        return false;
     }
+    const auto places = [&](Coordinate coordinate) -> Eigen::ArrayXd {
+        const Eigen::ArrayXd rank = rank_along(observations, coordinate).array();
+        return rank - rank.mean();
+    };
+    const Eigen::ArrayXd along = places(one);
+    const Eigen::ArrayXd beside = places(other);
+    const double squares = along.square().sum() * beside.square().sum();
+    return squares > 0 && std::abs((along * beside).sum()) > nearly * std::sqrt(squares);
 }
-
-/// Says of two axes whether they rise and fall together in all rows that have both, so that a function of one is one of the other.
-class RunTogether {
-public:
-    explicit RunTogether(const std::vector<Observation>& observations) : observations_(observations) {}
-
-    bool operator()(Axis a, Axis b) const {
-        constexpr double nearly = 0.98;
-        const Eigen::ArrayXd one = places(a);
-        const Eigen::ArrayXd other = places(b);
-        if (coordinate_along(a) == coordinate_along(b) || one.size() == 0 || other.size() == 0) {
-            return false;
-        }
-        const double squares = one.square().sum() * other.square().sum();
-        return squares > 0 && std::abs((one * other).sum()) > nearly * std::sqrt(squares);
-    }
-
-private:
-    /// Ranks less their mean; empty where the axis is no coordinate.
-    const Eigen::ArrayXd& places(Axis axis) const {
-        const auto [found, added] = places_.try_emplace(coordinate_along(axis));
-        if (added && found->first != Coordinate::none) {
-            found->second = rank_along(observations_, found->first).array();
-            found->second -= found->second.mean();
-        }
-        return found->second;
-    }
-
-    const std::vector<Observation>& observations_;
-    mutable std::map<Coordinate, Eigen::ArrayXd> places_;
-};
 
 /// The kind of a cause as far as an experiment tells it. Where gap and plate are the same in all rows, what depends on the modulus
 /// besides follows the frequency.
@@ -174,8 +131,7 @@ bool is_separated(Kind kind, const Experiment& experiment) {
         return true;
     }
     const Knows knows = knowledge_of(experiment);
-    const bool trap = any_table(experiment, [](const Measurement& table) { return table.solvent_trap; });
-    return has_oil(experiment) || trap || knows.load || knows.shear_before || plates_differ(experiment);
+    return has_oil(experiment) || has_trap(experiment) || knows.load || knows.shear_before || plates_differ(experiment);
 }
 
 bool is_separated(const Mechanism& cause, const Experiment& experiment) {
@@ -202,13 +158,13 @@ std::vector<FollowedKind> kinds_of(const Comparison& comparison, const Inference
                            FollowedKind{.kind = kind, .log_factor = form == forms.end() ? unset : form->second->log_factor});
     }
     std::stable_sort(kinds.begin(), kinds.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-    const RunTogether run_together(inference.errors().data().observations);
+    const std::vector<Observation>& observations = inference.errors().data().observations;
     std::vector<double> logarithms;
     for (const auto& [weight, one] : kinds) {
         const auto as_heavy = std::find_if(kinds.begin(), kinds.end(), [&, kind = one.kind](const auto& heavier) {
             const Axis axis = heavier.second.kind.axis;
             const bool passes = axis == Axis::time || axis == Axis::age;
-            return heavier.second.kind == kind || (!cause_fits && passes && run_together(axis, kind.axis));
+            return heavier.second.kind == kind || (!cause_fits && passes && run_together(observations, axis, kind.axis));
         });
         logarithms.push_back(as_heavy->first);
     }

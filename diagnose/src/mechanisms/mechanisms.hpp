@@ -31,26 +31,25 @@ inline std::complex<double> power_of_age(const Observation& row, Values values, 
 
 /// Whether strains differ, without which what follows the strain is a level that anything can have.
 inline bool strains_differ(const Knows& knows) {
-    return differs(knows.experiment, [](const Measurement& table, std::size_t row) { return cell(table, "strain", row); });
+    return column_differs(knows.experiment, "strain");
 }
 
 inline bool gaps_differ(const Knows& knows) {
-    return differs(knows.experiment, [](const Measurement& table, std::size_t row) { return cell(table, "gap", row); });
+    return column_differs(knows.experiment, "gap");
 }
 
 inline bool radii_differ(const Knows& knows) {
-    return differs(knows.experiment, [](const Measurement& table, std::size_t row) { return cell(table, "plate_radius", row); });
+    return column_differs(knows.experiment, "plate_radius");
 }
 
 /// Whether an oil was measured, which shows what the instrument does and nothing that a sample does by itself.
 inline bool shows_oil(const Knows& knows) {
-    return knows.experiment.material.kind == MaterialKind::newtonian ||
-           any_measurement(knows.experiment, [](const Measurement& table) { return std::isfinite(table.fluid_viscosity); });
+    return knows.experiment.material.kind == MaterialKind::newtonian || has_oil(knows.experiment);
 }
 
 /// Solvent that leaves at the rim stays under a trap, and is the less the wider the plates are.
 inline bool shows_rim(const Knows& knows) {
-    return radii_differ(knows) || any_measurement(knows.experiment, [](const Measurement& table) { return table.solvent_trap; });
+    return radii_differ(knows) || has_trap(knows.experiment);
 }
 
 /// A smooth viscosity may grow towards low rates in any way.

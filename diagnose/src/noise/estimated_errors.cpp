@@ -194,7 +194,7 @@ void estimate_sample_effect(const std::vector<NoiseModel>& noise, double stated,
     }
     constexpr double farthest = 8;  // logarithms of the deviation
     constexpr int nodes = 801;
-    Eigen::ArrayXd logarithm = std::log(stated) + Eigen::ArrayXd::LinSpaced(nodes, -farthest, farthest);
+    const Eigen::ArrayXd logarithm = std::log(stated) + Eigen::ArrayXd::LinSpaced(nodes, -farthest, farthest);
     const Eigen::ArrayXd variance = (2 * logarithm).exp() + seen.from_rows;
     const Eigen::ArrayXd density = -0.5 * (logarithm - std::log(stated)).square() -
                                    0.5 * seen.degrees * (variance.log() + (seen.variance + seen.from_rows) / variance);

@@ -127,7 +127,7 @@ TEST(EstimatedErrors, OfAFluidAreThoseOfTheTorque) {
     }
 }
 
-/// What replicates of so many samples tell of their scatter. @param rows_error of the level of a sample.
+/// Returns what replicates of so many samples tell of their scatter. @param rows_error of the level of a sample.
 NoiseModel of_samples(std::size_t samples, double deviation, double rows_error = 1e-3) {
     NoiseModel model;
     model.sample_estimated = true;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What an experiment tells of a departure: which axis it follows, and whether a cause can be told from its look-alikes.
+// These tests hold what an experiment tells of a departure: which axis it follows, and whether a cause can be told from its
+// look-alikes.
 #include "hidden_effects.hpp"
 #include "infer/kinds.hpp"
 #include "noise/data_set.hpp"
@@ -14,12 +15,11 @@
 namespace coagula::diagnose {
 namespace {
 
-Measurement time_sweep(const std::string& sample, double gap, double plate_radius = 0.0125) {
+Measurement run_between(const std::string& sample, double gap, double plate_radius = 0.0125) {
     Measurement table;
     table.kind = MeasurementKind::time_sweep;
     table.label = table.sample = sample;
-    const std::vector<double> six(6, 1.0);
-    const auto all = [&](double value) { return std::vector<double>(six.size(), value); };
+    const auto all = [](double value) { return std::vector<double>(6, value); };
     table.columns = {{"time", "s", {10, 30, 100, 300, 1000, 3000}},
                      {"storage_modulus", "Pa", {1000, 1010, 1030, 1060, 1090, 1100}},
                      {"loss_modulus", "Pa", all(100)},
@@ -29,13 +29,13 @@ Measurement time_sweep(const std::string& sample, double gap, double plate_radiu
     return table;
 }
 
-Measurement oil(double gap = 1e-3) {
-    Measurement table = time_sweep("oil", gap);
+Measurement oil_between(double gap = 1e-3) {
+    Measurement table = run_between("oil", gap);
     table.fluid_viscosity = 5;
     return table;
 }
 
-Experiment with(std::vector<Measurement> tables, MaterialKind material = MaterialKind::smooth) {
+Experiment experiment_with(std::vector<Measurement> tables, MaterialKind material = MaterialKind::smooth) {
     Experiment experiment;
     experiment.material.kind = material;
     experiment.instrument = {.geometry = Geometry::plate_plate, .plate_radius = 0.0125, .gap = 1e-3};
@@ -50,50 +50,52 @@ bool separated(const char* cause, const Experiment& experiment) {
 /// Water that flows back, a sample that settles: the time they take goes with the gap, which an oil does not show.
 TEST(Separation, WhatTheGapRulesNeedsGaps) {
     for (const char* cause : {"poroelastic-backflow", "sedimentation"}) {
-        EXPECT_FALSE(separated(cause, with({time_sweep("A", 1e-3), oil()}))) << cause << ": setting does the same";
-        EXPECT_TRUE(separated(cause, with({time_sweep("A", 1e-3), time_sweep("B", 5e-4)}))) << cause;
+        EXPECT_FALSE(separated(cause, experiment_with({run_between("A", 1e-3), oil_between()})))
+            << cause << ": setting does the same";
+        EXPECT_TRUE(separated(cause, experiment_with({run_between("A", 1e-3), run_between("B", 5e-4)}))) << cause;
     }
 }
 
 TEST(Separation, WhatTheRimDoesNeedsPlatesOrATrap) {
-    Measurement trapped = time_sweep("B", 1e-3);
+    Measurement trapped = run_between("B", 1e-3);
     trapped.solvent_trap = true;
     for (const char* cause : {"evaporation", "drying-rim"}) {
-        EXPECT_FALSE(separated(cause, with({time_sweep("A", 1e-3), oil()}))) << cause;
-        EXPECT_FALSE(separated(cause, with({time_sweep("A", 1e-3), time_sweep("B", 5e-4)}))) << cause << ": as at every gap";
-        EXPECT_TRUE(separated(cause, with({time_sweep("A", 1e-3), time_sweep("B", 1e-3, 0.025)}))) << cause;
-        EXPECT_TRUE(separated(cause, with({time_sweep("A", 1e-3), trapped}))) << cause;
+        EXPECT_FALSE(separated(cause, experiment_with({run_between("A", 1e-3), oil_between()}))) << cause;
+        EXPECT_FALSE(separated(cause, experiment_with({run_between("A", 1e-3), run_between("B", 5e-4)})))
+            << cause << ": as at every gap";
+        EXPECT_TRUE(separated(cause, experiment_with({run_between("A", 1e-3), run_between("B", 1e-3, 0.025)}))) << cause;
+        EXPECT_TRUE(separated(cause, experiment_with({run_between("A", 1e-3), trapped}))) << cause;
     }
 }
 
 /// A slip of one length, or samples that differ, look like a wrong gap or radius; an oil neither slips nor differs.
 TEST(Separation, AWrongGapOrRadiusNeedsAnOil) {
-    const Experiment gaps = with({time_sweep("A", 1e-3), time_sweep("B", 5e-4)});
-    const Experiment plates = with({time_sweep("A", 1e-3), time_sweep("B", 1e-3, 0.025)});
+    const Experiment gaps = experiment_with({run_between("A", 1e-3), run_between("B", 5e-4)});
+    const Experiment plates = experiment_with({run_between("A", 1e-3), run_between("B", 1e-3, 0.025)});
     EXPECT_FALSE(separated("gap-error", gaps));
     EXPECT_FALSE(separated("radius-error", plates));
-    EXPECT_TRUE(separated("gap-error", with({time_sweep("A", 1e-3), oil(5e-4)})));
-    EXPECT_TRUE(separated("radius-error", with({time_sweep("A", 1e-3, 0.025), oil()})));
-    EXPECT_TRUE(separated("gap-error", with(gaps.measurements, MaterialKind::newtonian))) << "the sample is an oil";
+    EXPECT_TRUE(separated("gap-error", experiment_with({run_between("A", 1e-3), oil_between(5e-4)})));
+    EXPECT_TRUE(separated("radius-error", experiment_with({run_between("A", 1e-3, 0.025), oil_between()})));
+    EXPECT_TRUE(separated("gap-error", experiment_with(gaps.measurements, MaterialKind::newtonian))) << "the sample is an oil";
 }
 
 TEST(Separation, SlipNeedsGapsOrRoughPlates) {
-    EXPECT_FALSE(separated("wall-slip", with({time_sweep("A", 1e-3), time_sweep("B", 1e-3)})));
-    EXPECT_TRUE(separated("wall-slip", with({time_sweep("A", 1e-3), time_sweep("B", 5e-4)})));
-    Measurement rough = time_sweep("B", 1e-3);
+    EXPECT_FALSE(separated("wall-slip", experiment_with({run_between("A", 1e-3), run_between("B", 1e-3)})));
+    EXPECT_TRUE(separated("wall-slip", experiment_with({run_between("A", 1e-3), run_between("B", 5e-4)})));
+    Measurement rough = run_between("B", 1e-3);
     rough.rough_plates = true;
-    EXPECT_TRUE(separated("wall-slip", with({time_sweep("A", 1e-3), rough})));
+    EXPECT_TRUE(separated("wall-slip", experiment_with({run_between("A", 1e-3), rough})));
 }
 
 /// A tool that gives way to the force changes the gap.
 TEST(Separation, ALoadNeedsGaps) {
-    std::vector<Measurement> pressed{time_sweep("A", 1e-3), time_sweep("B", 1e-3)};
+    std::vector<Measurement> pressed{run_between("A", 1e-3), run_between("B", 1e-3)};
     for (Measurement& table : pressed) {
         table.columns.push_back({"normal_force", "N", {1, 0.8, 0.6, 0.5, 0.4, 0.3}});
     }
-    EXPECT_FALSE(separated("normal-load", with(pressed)));
+    EXPECT_FALSE(separated("normal-load", experiment_with(pressed)));
     pressed[1].columns[4].values.assign(6, 5e-4);
-    EXPECT_TRUE(separated("normal-load", with(pressed)));
+    EXPECT_TRUE(separated("normal-load", experiment_with(pressed)));
 }
 
 /// Kinds of an experiment of which one cause explains all.
@@ -117,7 +119,7 @@ TEST(Kinds, AnOffsetOfTheTorqueFollowsTheRateOfAFlowCurve) {
     curve.kind = MeasurementKind::flow_curve;
     curve.label = curve.sample = "A";
     curve.columns = {{"shear_rate", "1/s", {0.1, 1, 10, 100, 1000}}, {"viscosity", "Pa.s", {3, 1, 1, 1, 1}}};
-    const Experiment experiment = with({curve}, MaterialKind::newtonian);
+    const Experiment experiment = experiment_with({curve}, MaterialKind::newtonian);
     EXPECT_TRUE(separated("torque-offset", experiment));
     const Kind kind = kinds_by("torque-offset", experiment, true).front().kind;
     EXPECT_EQ(kind.link, Link::tool);
@@ -130,22 +132,22 @@ TEST(Kinds, AxesThatRunTogetherAreNotTold) {
     series.kind = MeasurementKind::gap_series;
     series.label = series.sample = "A";
     series.columns = {{"gap", "m", {2e-3, 1e-3, 7e-4, 5e-4, 3e-4, 2e-4}}, {"storage_modulus", "Pa", {100, 101, 99, 95, 90, 85}}};
-    const std::vector<FollowedKind> shared = kinds_by("loading-relaxation", with({series}), false);
+    const std::vector<FollowedKind> shared = kinds_by("loading-relaxation", experiment_with({series}), false);
     EXPECT_EQ(shared[0].kind.axis, Axis::time);
     EXPECT_EQ(shared[1].kind.axis, Axis::gap);
     EXPECT_NEAR(shared[0].posterior, 0.5, 1e-9);
     EXPECT_NEAR(shared[1].posterior, 0.5, 1e-9);
-    EXPECT_GT(kinds_by("loading-relaxation", with({series}), true).front().posterior, 0.99);
+    EXPECT_GT(kinds_by("loading-relaxation", experiment_with({series}), true).front().posterior, 0.99);
     for (Column& column : series.columns) {
         std::swap(column.values[0], column.values[4]);
         std::swap(column.values[2], column.values[5]);
     }
-    EXPECT_GT(kinds_by("loading-relaxation", with({series}), false).front().posterior, 0.99) << "in no order";
+    EXPECT_GT(kinds_by("loading-relaxation", experiment_with({series}), false).front().posterior, 0.99) << "in no order";
 }
 
 /// The time since the filling and that since a shear are no two axes.
 TEST(Kinds, AgeAndTimeAreOneAxis) {
-    const std::vector<FollowedKind> kinds = kinds_by("ageing-after-shear", with({time_sweep("A", 1e-3)}), false);
+    const std::vector<FollowedKind> kinds = kinds_by("ageing-after-shear", experiment_with({run_between("A", 1e-3)}), false);
     EXPECT_EQ(kinds.front().kind, (Kind{Link::history, Axis::age}));
     EXPECT_GT(kinds.front().posterior, 0.99);
 }
@@ -159,8 +161,8 @@ TEST(Kinds, SlipAtOneGapFollowsTheFrequency) {
                      {"storage_modulus", "Pa", {1, 1, 2, 3, 4}},
                      {"loss_modulus", "Pa", {5, 10, 20, 40, 80}},
                      {"gap", "m", std::vector<double>(5, 1e-3)}};
-    EXPECT_EQ(kinds_by("wall-slip", with({sweep}), true).front().kind, (Kind{Link::geometry, Axis::frequency}));
-    EXPECT_EQ(kinds_by("gap-error", with({sweep}), true).front().kind, (Kind{Link::geometry, Axis::level}));
+    EXPECT_EQ(kinds_by("wall-slip", experiment_with({sweep}), true).front().kind, (Kind{Link::geometry, Axis::frequency}));
+    EXPECT_EQ(kinds_by("gap-error", experiment_with({sweep}), true).front().kind, (Kind{Link::geometry, Axis::level}));
 }
 
 }  // namespace
