@@ -2,6 +2,7 @@
 #include "detection.hpp"
 
 #include "data/normal_number.hpp"
+#include "fitted_scales.hpp"
 #include "steps_towards.hpp"
 
 #include <coagula/common/special_functions.hpp>
@@ -177,13 +178,18 @@ std::vector<MisfitStatistic> statistics_of(const Inference& inference, const Fit
     return all;
 }
 
+/// Whether the statistic is the sum of the squares of whole groups: over scales that these tell themselves it would say nothing.
+bool is_of_whole_groups(const MisfitStatistic& statistic) {
+    return statistic.cause.empty() && statistic.coordinate == Coordinate::none;
+}
+
 /// Value of the statistic for each column of residuals.
 Eigen::RowVectorXd evaluate(const MisfitStatistic& statistic, const Eigen::MatrixXd& residuals) {
     if (!statistic.cause.empty()) {
         return (statistic.directions.transpose() * residuals).colwise().maxCoeff().array().max(0).square();
     }
     const Eigen::MatrixXd own = residuals(statistic.rows, Eigen::all);
-    if (statistic.coordinate == Coordinate::none) {
+    if (is_of_whole_groups(statistic)) {
         return own.colwise().squaredNorm();
     }
     if (statistic.autocorrelation) {
@@ -246,6 +252,7 @@ Detection detect(const Inference& inference, const Fit& fit, const Hypothesis& c
     const Eigen::MatrixXd basis = orthonormal_basis(departures.jacobian);
     const Prediction about = inference.prediction(fit.model);
     const Eigen::MatrixXd residuals = drawn_residuals(inference, departures, about, basis, seed, bootstrap, progress);
+    const Eigen::MatrixXd scaled = over_fitted_scales(residuals, basis, scaled_rows(inference.errors()));
     Detection result;
     result.statistics = statistics_of(inference, fit, about, causes, residuals.rows(), basis);
     const auto kinds = static_cast<Index>(result.statistics.size());
@@ -253,7 +260,7 @@ Detection detect(const Inference& inference, const Fit& fit, const Hypothesis& c
     for (Index kind = 0; kind < kinds; ++kind) {
         progress.update("testing the fit", static_cast<double>(kind) / static_cast<double>(kinds));
         MisfitStatistic& statistic = result.statistics[static_cast<std::size_t>(kind)];
-        const Eigen::RowVectorXd own = evaluate(statistic, residuals);
+        const Eigen::RowVectorXd own = evaluate(statistic, is_of_whole_groups(statistic) ? residuals : scaled);
         statistic.value = own[bootstrap];
         // With the data among the samples, so that all are on the same footing.
         values.row(kind) = standardised(own.transpose().array()).transpose();

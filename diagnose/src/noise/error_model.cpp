@@ -112,6 +112,14 @@ ErrorModel::ErrorModel(const DataSet& data)
     saturated_ = scales.log_density() - 0.5 * log_determinant_;
 }
 
+std::vector<ScaledRows> ErrorModel::rows_of_scales() const {
+    std::vector<ScaledRows> groups;
+    for (std::size_t scale = 0; scale < degrees_.size(); ++scale) {
+        groups.push_back({degrees_[scale], belonging_->rows[scale + 1]});
+    }
+    return groups;
+}
+
 /// Whitened slope by the level of the material. Rows of different samples have independent errors: whitening keeps the rows of
 /// each together.
 Eigen::VectorXd ErrorModel::whitened_level(const Prediction& prediction) const {

@@ -27,6 +27,12 @@ namespace coagula::diagnose {
 /// density has its maximum nearly at the same prediction.
 enum class Accuracy { whole, middle };
 
+/// Departures whose deviations share a factor that is known from so many degrees of freedom only.
+struct ScaledRows {
+    double degrees;
+    std::vector<Index> rows;
+};
+
 class ErrorModel {
 public:
     /// @param data must outlive this.
@@ -34,6 +40,8 @@ public:
 
     Index size() const { return white_.size(); }
     const DataSet& data() const { return data_; }
+    /// The rows of each estimate of noise.
+    std::vector<ScaledRows> rows_of_scales() const;
 
     /// Values over the deviation of their rows and freed from the correlation of neighbours.
     Eigen::VectorXd whiten(const Eigen::VectorXd& values) const { return data_.noise.whiten(values); }
