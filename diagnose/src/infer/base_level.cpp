@@ -28,6 +28,29 @@ double Inference::log_level(Model model) const {
     return std::log(model.settings.normal_stiffness);
 }
 
+/// A model whose level is free lies among the data. Where it predicts next to nothing, their errors, which are in proportion to
+/// what was measured, ask for the size of a modulus only and not for its phase: the density has a plateau there that may be higher
+/// than anywhere else. So it falls off where half of the predicted moduli are too small or too large by more than a factor of e.
+double Inference::log_prior_of_level(const Eigen::VectorXd& predicted) const {
+    constexpr double most = 1;
+    constexpr double deviation = 0.1;
+    const std::vector<Observation>& observations = errors_.data().observations;
+    if (!scales_ || std::isfinite(stiffness_departure(0))) {
+        return 0;
+    }
+    std::vector<double> ratios;
+    ratios.reserve(observations.size());
+    for (std::size_t k = 0; k < observations.size(); ++k) {
+        const double ratio = std::abs(predicted[static_cast<Index>(k)] / observations[k].value);
+        if (forward_.scales(observations[k]) && ratio > 0 && std::isfinite(ratio)) {
+            ratios.push_back(ratio);
+        }
+    }
+    const double missed = ratios.empty() ? 0.0 : std::abs(std::log(median(std::move(ratios))));
+    const double beyond = std::max(0.0, missed - most) / deviation;
+    return -0.5 * beyond * beyond;
+}
+
 /// Far from the data the density has long tails, in which a search may stay: it begins where the model lies among the data, or
 /// where it was before if that is not far from there, nearer to the data, or the prediction is nonlinear.
 double Inference::better_start(const Model& model, double before) const {

@@ -102,9 +102,9 @@ Inference::AlongStiffness Inference::density_along(Model model, double log_stiff
     const Prediction here = prediction(model, {}, accuracy == Accuracy::whole ? many_steps : steps_on_the_way);
     const Prediction change = forward_.change_by_stiffness(model, here, step);
     const auto [below, value, above] = errors_.log_densities(here, change, accuracy);
-    const double prior = log_prior(log_stiffness);
-    const double prior_above = log_prior(log_stiffness + step) - prior;
-    const double prior_below = log_prior(log_stiffness - step) - prior;
+    const double prior = log_prior(log_stiffness) + log_prior_of_level(here.values);
+    const double prior_above = log_prior(log_stiffness + step) + log_prior_of_level(here.values + change.values) - prior;
+    const double prior_below = log_prior(log_stiffness - step) + log_prior_of_level(here.values - change.values) - prior;
     const double rise = above - below + prior_above - prior_below;
     const double bend = 2 * value - above - below - prior_above - prior_below;
     return {value + prior, rise / (2 * step), bend / (step * step)};
@@ -114,7 +114,8 @@ Inference::AlongStiffness Inference::density_along(Model model, double log_stiff
 /// larger ones.
 double Inference::density_at(Model model, double log_stiffness, Accuracy accuracy) const {
     model.settings.normal_stiffness = std::exp(log_stiffness);
-    return errors_.log_density(prediction(model), {}, accuracy) + log_prior(log_stiffness);
+    const Prediction here = prediction(model);
+    return errors_.log_density(here, {}, accuracy) + log_prior(log_stiffness) + log_prior_of_level(here.values);
 }
 
 /// Newton's method for the logarithm of the stiffness, with the density as a whole near its end only. @param least log weight from

@@ -120,6 +120,7 @@ private:
     double better_start(const Model& model, double before) const;
     std::pair<double, double> highest_maximum(const std::function<double(double)>& density) const;
     double log_prior(double log_stiffness) const;
+    double log_prior_of_level(const Eigen::VectorXd& predicted) const;
     double density_at(Model model, double log_stiffness, Accuracy accuracy = Accuracy::whole) const;
     struct AlongStiffness;
     AlongStiffness density_along(Model model, double log_stiffness, Accuracy accuracy) const;
