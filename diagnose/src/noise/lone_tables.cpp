@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 namespace coagula::diagnose {
@@ -50,6 +51,56 @@ Others others_than(std::size_t table, std::vector<double> levels) {
     return {median(levels), *high - *low};
 }
 
+/// Probability that one of several samples lies this far off the mean of the others, which differ as they do: samples of one batch
+/// differ by a tenth, known to a factor of e. @param others their levels, as logarithms. @param distance from their mean.
+double chance_of(const Eigen::ArrayXd& others, double distance) {
+    constexpr double usual = 0.1;
+    constexpr double farthest = 4;  // logarithms of the scatter
+    constexpr int nodes = 81;
+    const auto count = static_cast<double>(others.size());
+    const double squares = (others - others.mean()).square().sum();
+    const Eigen::ArrayXd logarithm = Eigen::ArrayXd::LinSpaced(nodes, -farthest, farthest);
+    const Eigen::ArrayXd scatter = usual * logarithm.exp();
+    const Eigen::ArrayXd density = -0.5 * logarithm.square() - (count - 1) * scatter.log() - 0.5 * squares / scatter.square();
+    const Eigen::ArrayXd weight = (density - density.maxCoeff()).exp();
+    const Eigen::ArrayXd beyond =
+        (std::abs(distance) / (scatter * std::sqrt(2 * (1 + 1 / count)))).unaryExpr([](double x) { return std::erfc(x); });
+    return (count + 1) * (weight * beyond).sum() / weight.sum();
+}
+
+/// The sample of three or more that lies apart from the others by more than chance makes it.
+std::optional<LoneTable> sample_apart(const Replicates& replicates, const std::vector<double>& levels) {
+    constexpr double rare = 0.05;
+    std::map<std::string, std::vector<std::size_t>> tables;
+    for (std::size_t table = 0; table < levels.size(); ++table) {
+        tables[replicates.samples[table]].push_back(table);
+    }
+    constexpr std::size_t fewest_samples = 3;
+    if (is_phase(replicates) || tables.size() < fewest_samples) {
+        return std::nullopt;
+    }
+    double least = rare;
+    std::optional<LoneTable> found;
+    for (const auto& [sample, own] : tables) {
+        std::vector<double> others;
+        double here = 0;
+        for (const auto& [other, places] : tables) {
+            double sum = 0;
+            for (const std::size_t place : places) {
+                sum += levels[place];
+            }
+            const double level = sum / static_cast<double>(places.size());
+            other == sample ? here = level : others.emplace_back(level);
+        }
+        const Eigen::ArrayXd rest = Eigen::ArrayXd::Map(others.data(), static_cast<Index>(others.size()));
+        if (const double chance = chance_of(rest, here - rest.mean()); chance < least) {
+            least = chance;
+            found = {replicates.labels[own.front()], sample, replicates.observable, std::exp(here - rest.mean()), false, ""};
+        }
+    }
+    return found;
+}
+
 std::optional<LoneTable> farthest(const Replicates& replicates) {
     const Eigen::MatrixXd values = comparable(replicates);
     const auto tables = static_cast<std::size_t>(values.cols());
@@ -76,7 +127,7 @@ std::optional<LoneTable> farthest(const Replicates& replicates) {
                      two ? replicates.labels[1 - table] : ""};
         }
     }
-    return found;
+    return found ? found : sample_apart(replicates, levels);
 }
 
 }  // namespace

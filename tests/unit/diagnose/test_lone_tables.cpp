@@ -16,6 +16,11 @@
 namespace coagula::diagnose {
 namespace {
 
+/// Of a sample over the mean of all.
+double level_of(std::uint64_t seed) {
+    return 1 + 0.1 * drawn_normal(seed, 100);
+}
+
 /// A frequency sweep with errors of 1 % and a level of its own, whose moduli are multiplied by a factor.
 Measurement repeated(const std::string& sample, std::uint64_t seed, std::complex<double> factor = 1, double loss_factor = 1) {
     Measurement table;
@@ -24,7 +29,7 @@ Measurement repeated(const std::string& sample, std::uint64_t seed, std::complex
     table.sample = sample;
     table.columns = {
         {"angular_frequency", "rad/s", logarithmic_steps(1, 100, 14)}, {"storage_modulus", "Pa", {}}, {"loss_modulus", "Pa", {}}};
-    const double level = 1e4 * (1 + 0.1 * drawn_normal(seed, 100));
+    const double level = 1e4 * level_of(seed);
     for (std::size_t row = 0; row < 14; ++row) {
         const std::complex<double> modulus = factor * level * std::complex<double>(1, 0.1);
         const double error = 0.01 * std::abs(modulus);
@@ -69,6 +74,24 @@ TEST(LoneTables, ALossModulusThatIsMissingInOneSampleIsAPhase) {
     EXPECT_EQ(found[0].sample, "B");
     EXPECT_EQ(found[0].observable, "phase");
     EXPECT_NEAR(found[0].difference, -0.1, 0.02);
+}
+
+/// Two agree to 5 % here, the third is softer by 40 %: less than the factor of an obvious mistake, and no scatter either.
+TEST(LoneTables, OneSampleOfThreeIsApart) {
+    const std::vector<Measurement> tables{repeated("A", 1, 1 / level_of(1)), repeated("B", 2, 1.05 / level_of(2)),
+                                          repeated("C", 3, 0.55 / level_of(3))};
+    const std::vector<LoneTable> found = lone_tables(tables);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].sample, "C");
+    EXPECT_NEAR(found[0].difference, 0.55 / 1.025, 0.01);
+    EXPECT_TRUE(lone_tables({tables[0], tables[2]}).empty()) << "nobody knows what two samples differ by";
+}
+
+/// Runs on one sample agree, which says nothing about how samples differ.
+TEST(LoneTables, RunsOnOneSampleAreNoSamples) {
+    EXPECT_TRUE(
+        lone_tables({repeated("A", 1, 1 / level_of(1)), repeated("A", 2, 1 / level_of(2)), repeated("B", 3, 0.65 / level_of(3))})
+            .empty());
 }
 
 TEST(LoneTables, NobodyKnowsWhichOfTwoIsWrong) {

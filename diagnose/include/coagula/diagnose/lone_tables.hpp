@@ -20,7 +20,8 @@ struct LoneTable {
 
 /// For every kind of replicates and each of their quantities the table that lies farthest off the median of the others, where it
 /// does so by more than a factor of 2, or 0.03 rad, and six times farther than the others lie apart; one of two by a factor of 3,
-/// or 0.1 rad. Levels are medians over the rows that all tables have.
+/// or 0.1 rad. Else the sample of three or more whose level would lie as far off the others by chance in less than one of 20
+/// experiments, where samples differ by a tenth, known to a factor of e. Levels are medians over the rows that all tables have.
 std::vector<LoneTable> lone_tables(const std::vector<Measurement>& tables);
 
 }  // namespace coagula::diagnose
