@@ -10,10 +10,14 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <limits>
 #include <map>
+#include <set>
+#include <string>
+#include <tuple>
 #include <utility>
 #include <variant>
 
@@ -89,6 +93,50 @@ bool run_together(const std::vector<Observation>& observations, Axis a, Axis b) 
     return squares > 0 && std::abs((along * beside).sum()) > nearly * std::sqrt(squares);
 }
 
+/// How plates, gap, walls and trap are set in a row: what a sample departs by may be due to these. Lengths as hundredths of
+/// logarithms, 0 where they are not told.
+using Setting = std::tuple<long, long, bool, bool>;
+
+bool are_alike(const Setting& one, const Setting& other) {
+    constexpr long nearly = 5;
+    const auto [gap, radius, rough, trap] = one;
+    const auto [other_gap, other_radius, other_rough, other_trap] = other;
+    return std::abs(gap - other_gap) <= nearly && std::abs(radius - other_radius) <= nearly && rough == other_rough &&
+           trap == other_trap;
+}
+
+std::set<Setting> settings_of(const Experiment& experiment, const std::string& sample, bool of_others) {
+    const auto place = [](double length) { return length > 0 ? std::lround(100 * std::log(length)) : 0; };
+    std::set<Setting> settings;
+    for (const Measurement& table : experiment.measurements) {
+        const bool oil = std::isfinite(table.fluid_viscosity);
+        for (std::size_t row = 0; !oil && (table.sample == sample) != of_others && row < table.rows(); ++row) {
+            settings.emplace(place(cell(table, "gap", row)), place(cell(table, "plate_radius", row)), table.rough_plates,
+                             table.solvent_trap);
+        }
+    }
+    return settings;
+}
+
+/// Whether nothing else was measured as this sample was.
+bool is_set_apart(const Experiment& experiment, const std::string& sample) {
+    const std::set<Setting> others = settings_of(experiment, sample, true);
+    const std::set<Setting> own = settings_of(experiment, sample, false);
+    return std::none_of(own.begin(), own.end(), [&](const Setting& setting) {
+        return std::any_of(others.begin(), others.end(), [&](const Setting& other) { return are_alike(setting, other); });
+    });
+}
+
+/// Whether a kind, where no cause fits, tells no more than another one: what runs in the order of time is not told from the time,
+/// and a sample that was set apart not from its setting.
+bool stands_for(Kind kind, Kind other, const std::vector<Observation>& observations, bool sample_is_set_apart) {
+    constexpr std::array settings{Axis::time, Axis::gap, Axis::radius, Axis::level};
+    if (kind.axis == Axis::sample) {
+        return sample_is_set_apart && std::find(settings.begin(), settings.end(), other.axis) != settings.end();
+    }
+    return (kind.axis == Axis::time || kind.axis == Axis::age) && run_together(observations, kind.axis, other.axis);
+}
+
 /// The kind of a cause as far as an experiment tells it. Where gap and plate are the same in all rows, what depends on the modulus
 /// besides follows the frequency.
 Kind told_kind(const Mechanism& cause, const Inference& inference) {
@@ -98,6 +146,10 @@ Kind told_kind(const Mechanism& cause, const Inference& inference) {
     const bool level = told.axis == Axis::level && cause.kind.axis != Axis::level;
     const bool sweeps = rank_along(observations, Coordinate::angular_frequency).maxCoeff() > 0;
     return level && sweeps && !is_proportional(cause, observations) ? Kind{told.link, Axis::frequency} : told;
+}
+
+Eigen::VectorXd prediction_of_base(const Comparison& comparison, const Inference& inference) {
+    return inference.fitted(inference.prediction(comparison.all.front().fit.model));
 }
 
 }  // namespace
@@ -158,13 +210,15 @@ std::vector<FollowedKind> kinds_of(const Comparison& comparison, const Inference
                            FollowedKind{.kind = kind, .log_factor = form == forms.end() ? unset : form->second->log_factor});
     }
     std::stable_sort(kinds.begin(), kinds.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-    const std::vector<Observation>& observations = inference.errors().data().observations;
+    const DataSet& data = inference.errors().data();
+    const auto of_sample = forms.find({Link::errors, Axis::sample});
+    const bool apart = !cause_fits && of_sample != forms.end() &&
+                       is_set_apart(inference.forward().experiment(),
+                                    followed_by(*of_sample->second, data, prediction_of_base(comparison, inference)).sample);
     std::vector<double> logarithms;
     for (const auto& [weight, one] : kinds) {
         const auto as_heavy = std::find_if(kinds.begin(), kinds.end(), [&, kind = one.kind](const auto& heavier) {
-            const Axis axis = heavier.second.kind.axis;
-            const bool passes = axis == Axis::time || axis == Axis::age;
-            return heavier.second.kind == kind || (!cause_fits && passes && run_together(observations, axis, kind.axis));
+            return heavier.second.kind == kind || (!cause_fits && stands_for(heavier.second.kind, kind, data.observations, apart));
         });
         logarithms.push_back(as_heavy->first);
     }
@@ -186,8 +240,7 @@ Follows follows_of(const std::vector<FollowedKind>& kinds, const Comparison& com
         std::find_if(comparison.forms.begin(), comparison.forms.end(), [&](const FreeForm& one) { return one.kind == shown; });
     Follows follows{.kind = first.kind};
     if (form != comparison.forms.end()) {
-        const Prediction base = inference.prediction(comparison.all.front().fit.model);
-        follows = followed_by(*form, inference.errors().data(), inference.fitted(base));
+        follows = followed_by(*form, inference.errors().data(), prediction_of_base(comparison, inference));
     }
     follows.kind = first.kind;
     follows.posterior = first.posterior;

@@ -152,6 +152,46 @@ TEST(Kinds, AgeAndTimeAreOneAxis) {
     EXPECT_GT(kinds.front().posterior, 0.99);
 }
 
+/// Kinds where one of three samples departs, and no cause does.
+std::vector<FollowedKind> kinds_where_one_departs(const Experiment& experiment) {
+    const DataSet data = data_set_of(experiment, {.sample = 0.1});
+    const Forward forward(experiment, data.observations, simulator());
+    const ErrorModel errors(data);
+    const Inference inference(forward, errors);
+    Comparison comparison;
+    comparison.all.resize(1);
+    comparison.all[0].fit = inference.fit({});
+    Eigen::VectorXd departure = Eigen::VectorXd::Zero(data.size());
+    for (Index row = 0; row < data.size(); ++row) {
+        departure[row] = data.sample_names[static_cast<std::size_t>(data.sample[static_cast<std::size_t>(row)])] == "C" ? 200 : 0;
+    }
+    comparison.forms = {{{Link::errors, Axis::sample}, 90, departure},
+                        {{Link::history, Axis::time}, 50, departure},
+                        {{Link::material, Axis::strain}, 40, departure}};
+    return kinds_of(comparison, inference, false);
+}
+
+/// A sample that alone was measured at another gap, or with a trap, departs by what it is or by how it was set.
+TEST(Kinds, ASampleIsNotToldFromItsSetting) {
+    std::vector<Measurement> tables{run_between("A", 1e-3), run_between("B", 1e-3), run_between("C", 1e-3)};
+    EXPECT_GT(kinds_where_one_departs(experiment_with(tables)).front().posterior, 0.99);
+    const auto shared = [&](const std::vector<Measurement>& set) {
+        const std::vector<FollowedKind> kinds = kinds_where_one_departs(experiment_with(set));
+        EXPECT_EQ(kinds[0].kind.axis, Axis::sample);
+        EXPECT_EQ(kinds[1].kind.axis, Axis::time);
+        EXPECT_NEAR(kinds[0].posterior, 0.5, 1e-9);
+        EXPECT_NEAR(kinds[1].posterior, 0.5, 1e-9);
+    };
+    std::vector<Measurement> trapped = tables;
+    trapped[2].solvent_trap = true;
+    shared(trapped);
+    std::vector<Measurement> nearer = tables;
+    nearer[2] = run_between("C", 5e-4);
+    shared(nearer);
+    nearer[1] = run_between("B", 5.1e-4);
+    EXPECT_GT(kinds_where_one_departs(experiment_with(nearer)).front().posterior, 0.99) << "B was measured as C was";
+}
+
 /// At one gap slip acts by the modulus, which the frequency changes; an error of the gap is one factor.
 TEST(Kinds, SlipAtOneGapFollowsTheFrequency) {
     Measurement sweep;
