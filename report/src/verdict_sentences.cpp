@@ -61,9 +61,17 @@ const AxisWords& words_of(Axis axis) {
     return *std::find_if(axis_words.begin(), axis_words.end(), [axis](const AxisWords& one) { return one.axis == axis; });
 }
 
+/// Whether samples differ between plates where an oil does not.
+bool is_of_filling(const diagnose::Kind& kind) {
+    return kind.link == Link::history && (kind.axis == Axis::gap || kind.axis == Axis::radius);
+}
+
 /// What a link does, to go on after "it acts like".
-const char* acts_like(Link link) {
-    switch (link) {
+const char* acts_like(const diagnose::Kind& kind) {
+    if (is_of_filling(kind)) {
+        return "samples that differ or were filled otherwise, for the oil does not follow it";
+    }
+    switch (kind.link) {
         case Link::structure:
             return "another structure";
         case Link::material:
@@ -154,6 +162,10 @@ const char* advice(const diagnose::Kind& kind, bool of_oil) {
         return "Measure another oil of known viscosity, at two more gaps and between plates of another radius: what the instrument "
                "does is the same there.";
     }
+    if (is_of_filling(kind)) {
+        return "Fill every gap and plate with several samples of one batch, in no order, and wait equally long: what belongs to "
+               "batch or filling does not come back.";
+    }
     switch (kind.link) {
         case Link::history:
             return "Measure one point again and again on a fresh sample, under a solvent trap and between plates of another "
@@ -236,7 +248,7 @@ std::string follows_sentence(const Diagnosis& found) {
                                                      : "It is open what the deviation follows. The most probable is ";
     text += axis_in_words(follows) + size_text(follows, words_of(follows.kind.axis).unit);
     text += follows.posterior >= sure ? "" : chance;
-    text += std::string(". It acts like ") + acts_like(follows.kind.link) +
+    text += std::string(". It acts like ") + acts_like(follows.kind) +
             (follows.link_is_told ? "." : ", but nothing that was measured tells that from what else follows the same.");
     const std::vector<std::string> causes = causes_of_kind(found);
     return text + (causes.empty() ? " The catalogue has no cause of that kind." : " Causes of that kind: " + joined(causes) + ".");

@@ -73,6 +73,7 @@ public:
             add_smooth(kind, level_, coordinate);
         }
         add_plates();
+        add_fillings();
         add_tool();
         for (Index sample = 0; data_.samples() > 1 && sample < data_.samples(); ++sample) {
             add_sample(sample);
@@ -144,6 +145,18 @@ private:
                 add_smooth({Link::geometry, Axis::strain}, scale, Coordinate::strain);
                 add_course({Link::geometry, Axis::time}, scale);
             }
+        }
+    }
+
+    /// What differs between plates in the sample, and not in an oil: the sample, or how it was filled.
+    void add_fillings() {
+        Eigen::VectorXd scale = level_;
+        for (Index row = 0; row < scale.size(); ++row) {
+            scale[row] *= is_fluid(data_.observations[static_cast<std::size_t>(row)]) ? 0.0 : 1.0;
+        }
+        if (scale != level_) {
+            add_smooth({Link::history, Axis::gap}, scale, Coordinate::gap);
+            add_smooth({Link::history, Axis::radius}, scale, Coordinate::plate_radius);
         }
     }
 

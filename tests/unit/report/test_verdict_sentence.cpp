@@ -143,6 +143,18 @@ TEST(VerdictSentence, ACauseOrOneThatNobodyKnows) {
               "look-alikes outside the catalogue. The cause may be another one, which the catalogue does not have.");
 }
 
+TEST(VerdictSentence, SamplesThatDifferBetweenPlatesAreFilledAgain) {
+    diagnose::Diagnosis found;
+    found.detected = true;
+    found.verdict = diagnose::Verdict::none_of_catalogue;
+    found.credible_set = {unknown()};
+    found.best = unknown();
+    found.follows = {.kind = {diagnose::Link::history, diagnose::Axis::gap}, .posterior = 0.99, .link_is_told = true};
+    const Names sentences = verdict_sentences(found);
+    EXPECT_NE(sentences[1].find("It acts like samples that differ or were filled otherwise"), std::string::npos) << sentences[1];
+    EXPECT_NE(sentences.back().find("Fill every gap and plate with several samples"), std::string::npos) << sentences.back();
+}
+
 /// A cause says itself what tells it from others.
 TEST(VerdictSentence, WhatTellsACauseFromItsLookAlikes) {
     diagnose::Diagnosis found;
