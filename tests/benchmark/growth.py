@@ -12,7 +12,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-ROW = re.compile(r"^\| (generate vem|characterize|shear), N = (\d+)[^|]* \| [\d.]+ \| ([\d.]+) \|", re.MULTILINE)
+ROW = re.compile(r"^\| (generate vem|characterize|shear), N = (\d+)[^|]* \| [\d.]+ \| ([\d.]+) \| [\d.]+ \| `coagula", re.MULTILINE)
 
 PLOT = """set terminal pngcairo size 900,640 font "DejaVu Sans,14"
 set output "{picture}"

@@ -25,6 +25,7 @@ KNOWN = {
     "export-rheofit-flow-flow": ("emulsion, thins", ("shear-thinning",), ("material along shear_rate",)),
     "export-rheofit-flow-las": ("raw phase near 180 degrees: inertia", ("tool-inertia", "sample-inertia"),
                                 ("tool along frequency", "geometry along frequency", "material along frequency")),
+    "export-rheoplus": ("sweeps from 160 to 120 degrees Celsius, which the experiment does not tell", (), ("history along time",)),
     "export-ttw": ("dries while it is heated: + 20 %", ("evaporation", "drying-rim"), ("history along time", "geometry along time")),
     "export-rheocompass-variants-frequency": ("made by hand", (), ()),
     "real-exports-dhr": ("raw: inertia of the tool 25.7 and 24.2 uN.m.s2", ("tool-inertia",), ("tool along frequency",)),
