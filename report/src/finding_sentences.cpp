@@ -6,6 +6,7 @@
 
 #include <coagula/diagnose/observable.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -45,6 +46,23 @@ std::string way_of(double early, double late, bool base_is_zero) {
     return late < early ? " falls relative to the base model" : " rises relative to the base model";
 }
 
+/// How a departure is told: in percent, and where it exceeds the base model as the factor between both.
+class DepartureText {
+public:
+    DepartureText(bool of_base_model, double largest) : as_factor_(of_base_model && largest > 1) {}
+
+    const char* before() const { return as_factor_ ? ": " : ": mean difference "; }
+
+    std::string first(double departure) const { return other(departure) + (as_factor_ ? " the base model" : ""); }
+
+    std::string other(double departure) const {
+        return as_factor_ ? three_digits(1 + departure) + " times" : three_digits(100 * departure) + " %";
+    }
+
+private:
+    bool as_factor_;
+};
+
 std::string sentence(const Misfit& misfit, const diagnose::SmoothMisfit& course) {
     const diagnose::Observable& observable = observable_named(misfit.observable);
     const WrittenCoordinate coordinate = written_coordinate(misfit.axis);
@@ -53,13 +71,13 @@ std::string sentence(const Misfit& misfit, const diagnose::SmoothMisfit& course)
     const std::string axis = std::string(coordinate.words) + (course.time_is_stated ? "" : " (10 s a row where none is stated)");
     const double early = course.before;
     const double late = misfit.departure;
+    const DepartureText text(whole.empty(), std::max(early, late));
     if (course.is_the_same) {
         return std::string(observable.phrase) + " lies " + (late < 0 ? "below" : "above") + " the base model all along " + axis +
-               ": mean difference " + three_digits(100 * 0.5 * (early + late)) + " %" + of;
+               text.before() + text.first(0.5 * (early + late)) + of;
     }
-    return std::string(observable.phrase) + way_of(early, late, course.base_is_zero) + " along " + axis + ": mean difference " +
-           three_digits(100 * early) + " % before and " + three_digits(100 * late) + " % from " +
-           value_text(misfit.from, coordinate) + " on" + of;
+    return std::string(observable.phrase) + way_of(early, late, course.base_is_zero) + " along " + axis + text.before() +
+           text.first(early) + " before and " + text.other(late) + " from " + value_text(misfit.from, coordinate) + " on" + of;
 }
 
 std::string sentence(const Misfit& misfit, const diagnose::LevelMisfit& level) {

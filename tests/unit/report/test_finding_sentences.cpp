@@ -32,6 +32,17 @@ TEST(FindingSentences, ADepartureThatChangesHasTwoSizesAndAPlace) {
               "before and 4 % from 2 um on (of the void space)");
 }
 
+/// "793 % before" says nothing to anybody.
+TEST(FindingSentences, WhatExceedsTheBaseModelIsToldAsAFactor) {
+    EXPECT_EQ(sentence_on(Misfit{"storage_modulus", "strain", 5, 0.02, -0.5, SmoothMisfit{.before = 7.93}}),
+              "G' falls relative to the base model along strain: 8.93 times the base model before and 0.5 times from 2 % on");
+    EXPECT_EQ(sentence_on(Misfit{"storage_modulus", "gap", 5, 5e-4, 3.1, SmoothMisfit{.before = 2.9, .is_the_same = true}}),
+              "G' lies above the base model all along gap: 4 times the base model");
+    EXPECT_NE(sentence_on(Misfit{"loss_modulus", "gap", 5, 5e-4, 1.1, SmoothMisfit{.before = 0, .over_largest = true}})
+                  .find("110 % from 0.5 mm on (of the largest predicted modulus)"),
+              std::string::npos);
+}
+
 TEST(FindingSentences, ADepartureThatStaysHasOneSize) {
     EXPECT_EQ(sentence_on(Misfit{"loss_modulus", "angular_frequency", 5, 1, 0.042,
                                  SmoothMisfit{.before = 0.038, .over_largest = true, .is_the_same = true}}),
