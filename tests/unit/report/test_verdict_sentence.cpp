@@ -147,8 +147,11 @@ TEST(VerdictSentence, SamplesThatDifferBetweenPlatesAreFilledAgain) {
     diagnose::Diagnosis found;
     found.detected = true;
     found.verdict = diagnose::Verdict::none_of_catalogue;
-    found.credible_set = {unknown()};
-    found.best = unknown();
+    diagnose::Cause cause;
+    cause.set = causes({"gap-error"});
+    cause.parameters.emplace_back();
+    found.causes = {cause};
+    found.best = cause.set;
     found.follows = {.kind = {diagnose::Link::history, diagnose::Axis::gap}, .posterior = 0.99, .link_is_told = true};
     const Names sentences = verdict_sentences(found);
     EXPECT_NE(sentences[1].find("It acts like samples that differ or were filled otherwise"), std::string::npos) << sentences[1];
