@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace coagula::diagnose {
@@ -28,26 +29,45 @@ double Inference::log_level(Model model) const {
     return std::log(model.settings.normal_stiffness);
 }
 
+std::vector<Inference::MeasuredSize> Inference::measured_sizes() const {
+    const DataSet& data = errors_.data();
+    if (!scales_ || std::isfinite(stiffness_departure(0))) {
+        return {};
+    }
+    std::map<std::pair<std::size_t, std::size_t>, MeasuredSize> sizes;
+    for (std::size_t k = 0; k < data.observations.size(); ++k) {
+        const Observation& one = data.observations[k];
+        if (forward_.scales(one)) {
+            MeasuredSize& size = sizes[{one.measurement, one.row}];
+            size.observations.push_back(static_cast<Index>(k));
+            size.logarithm += one.value * one.value;  // its square, so far
+        }
+    }
+    std::vector<MeasuredSize> all;
+    for (auto& [row, size] : sizes) {
+        size.logarithm = 0.5 * std::log(size.logarithm);
+        if (std::isfinite(size.logarithm)) {
+            all.push_back(std::move(size));
+        }
+    }
+    return all;
+}
+
 /// A model whose level is free lies among the data. Where it predicts next to nothing, their errors, which are in proportion to
 /// what was measured, ask for the size of a modulus only and not for its phase: the density has a plateau there that may be higher
-/// than anywhere else. So it falls off where half of the predicted moduli are too small or too large by more than a factor of e.
+/// than anywhere else. So it falls off where the predicted |G*| is smaller or larger by more than a factor of e, as a geometric
+/// mean.
 double Inference::log_prior_of_level(const Eigen::VectorXd& predicted) const {
     constexpr double most = 1;
     constexpr double deviation = 0.1;
-    const std::vector<Observation>& observations = errors_.data().observations;
-    if (!scales_ || std::isfinite(stiffness_departure(0))) {
-        return 0;
+    double sum = 0;
+    double count = 0;
+    for (const MeasuredSize& size : sizes_) {
+        const double square = predicted(size.observations).squaredNorm();
+        sum += square > 0 ? 0.5 * std::log(square) - size.logarithm : 0;
+        count += square > 0 ? 1 : 0;
     }
-    std::vector<double> ratios;
-    ratios.reserve(observations.size());
-    for (std::size_t k = 0; k < observations.size(); ++k) {
-        const double ratio = std::abs(predicted[static_cast<Index>(k)] / observations[k].value);
-        if (forward_.scales(observations[k]) && ratio > 0 && std::isfinite(ratio)) {
-            ratios.push_back(ratio);
-        }
-    }
-    const double missed = ratios.empty() ? 0.0 : std::abs(std::log(median(std::move(ratios))));
-    const double beyond = std::max(0.0, missed - most) / deviation;
+    const double beyond = std::max(0.0, std::abs(sum) / std::max(count, 1.0) - most) / deviation;
     return -0.5 * beyond * beyond;
 }
 

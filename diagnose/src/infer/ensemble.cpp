@@ -48,6 +48,19 @@ public:
         keep_highest();
     }
 
+    /// Walkers in a mode that has no share of the probability cannot leave it: they go on from where others are.
+    void gather() {
+        constexpr double hopeless = 10;  // logarithms below the highest
+        const double least = densities_.maxCoeff() - hopeless;
+        for (Eigen::Index walker = 0; walker < places_.cols(); ++walker) {
+            for (; densities_[walker] < least; ++step_) {
+                const auto other = static_cast<Eigen::Index>(uniform(0)[0] * static_cast<double>(places_.cols()));
+                places_.col(walker) = places_.col(other);
+                densities_[walker] = densities_[other];
+            }
+        }
+    }
+
     const Eigen::MatrixXd& places() const { return places_; }
     /// The most probable place that a walker has seen.
     const Eigen::VectorXd& highest() const { return highest_; }
@@ -125,6 +138,9 @@ Engine ensemble(const EnsembleOptions& options) {
         Walkers walkers(problem, options);
         for (int sweep = 0; sweep < options.settling; ++sweep) {
             walkers.sweep();
+            if (sweep == options.settling / 2) {
+                walkers.gather();
+            }
         }
         Eigen::MatrixXd places(axes, options.walkers * options.sweeps);
         for (int sweep = 0; sweep < options.sweeps; ++sweep) {

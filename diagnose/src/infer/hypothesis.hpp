@@ -55,7 +55,7 @@ Model model_at(const Hypothesis& hypothesis, const Eigen::VectorXd& place, doubl
 class Inference {
 public:
     Inference(const Forward& forward, const ErrorModel& errors)
-        : forward_(forward), errors_(errors), scales_(shows_scale()), log_level_(log_level()) {}
+        : forward_(forward), errors_(errors), scales_(shows_scale()), log_level_(log_level()), sizes_(measured_sizes()) {}
 
     /// @param engine that gives an evidence.
     Fit fit(const Hypothesis& hypothesis, const Engine& engine = grid()) const;
@@ -111,7 +111,8 @@ private:
           errors_(other.errors_),
           scales_(other.scales_),
           last_errors_(other.last_errors_),
-          log_level_(other.log_level_) {}
+          log_level_(other.log_level_),
+          sizes_(other.sizes_) {}
     Fit fit_here(const Hypothesis& hypothesis, const Engine& engine) const;
     ProjectedResidual projected_residual(const Hypothesis& hypothesis, const Eigen::VectorXd& place, double log_stiffness) const;
     Node highest_of_base(const Node& found) const;
@@ -120,6 +121,12 @@ private:
     double better_start(const Model& model, double before) const;
     std::pair<double, double> highest_maximum(const std::function<double(double)>& density) const;
     double log_prior(double log_stiffness) const;
+    /// |G*| of a row that shows the stiffness, or its one modulus or viscosity.
+    struct MeasuredSize {
+        std::vector<Index> observations = {};
+        double logarithm = 0;
+    };
+    std::vector<MeasuredSize> measured_sizes() const;
     double log_prior_of_level(const Eigen::VectorXd& predicted) const;
     double density_at(Model model, double log_stiffness, Accuracy accuracy = Accuracy::whole) const;
     struct AlongStiffness;
@@ -131,6 +138,7 @@ private:
     bool scales_;
     mutable Eigen::VectorXd last_errors_;  ///< about which the last nonlinear prediction was made: those of the next are near
     double log_level_;                     ///< logarithm of the stiffness [N/m] that the base model needs for half of the moduli
+    std::vector<MeasuredSize> sizes_;      ///< none where the stiffness is known
 };
 
 }  // namespace coagula::diagnose

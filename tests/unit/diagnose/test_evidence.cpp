@@ -154,17 +154,19 @@ TEST(Evidence, OfTheGridIsThatOfAnEnsemble) {
     const PosteriorDraws& draws = drawn.draws;
     ASSERT_EQ(draws.rows(), 3);
     // 500 sweeps of which one in some ten is independent: 600 draws, whose parts are known to 0.01 at the ends. Of an exponent that
-    // the data would have at the end of its prior, the interval of the grid reaches that end.
-    for (Index parameter = 0; parameter < 3; ++parameter) {
+    // the data would have at the end of its prior, the interval of the grid reaches that end. That of the stiffness also has what
+    // so few structures leave open, which the draws do not have: both intervals are compared below.
+    for (Index parameter = 1; parameter < 3; ++parameter) {
         const auto number = static_cast<std::size_t>(parameter);
-        const Estimate& by_grid = parameter == 0 ? fit.stiffness : fit.parameters[number - 1];
+        const Estimate& by_grid = fit.parameters[number - 1];
         const MechanismParameter& prior = problem.priors[number];
         EXPECT_NEAR(part_below(draws, parameter, by_grid.low), 0.05, 0.04) << prior.name;
         EXPECT_NEAR(part_below(draws, parameter, by_grid.high), by_grid.high < 0.99 * prior.high ? 0.95 : 1.0, 0.04) << prior.name;
     }
     EXPECT_TRUE(std::isnan(drawn.log_evidence)) << "an ensemble gives none";
     EXPECT_GT(drawn.log_density, fit.log_density - 0.3) << "one of 25 600 places is near the mode";
-    EXPECT_NEAR(drawn.stiffness.low, fit.stiffness.low, 0.2 * (fit.stiffness.high - fit.stiffness.low));
+    EXPECT_NEAR(drawn.stiffness.low, fit.stiffness.low, 0.1 * (fit.stiffness.high - fit.stiffness.low));
+    EXPECT_NEAR(drawn.stiffness.high, fit.stiffness.high, 0.1 * (fit.stiffness.high - fit.stiffness.low));
     EXPECT_NEAR(drawn.parameters[0].high, fit.parameters[0].high, 0.2 * (fit.parameters[0].high - fit.parameters[0].low));
 }
 
