@@ -46,7 +46,7 @@ std::string way_of(double early, double late, bool base_is_zero) {
     return late < early ? " falls relative to the base model" : " rises relative to the base model";
 }
 
-/// How a departure is told: in percent, and where it exceeds the base model as the factor between both.
+/// It tells a departure in percent, and where that exceeds the base model as the factor between both.
 class DepartureText {
 public:
     DepartureText(bool of_base_model, double largest) : as_factor_(of_base_model && largest > 1) {}

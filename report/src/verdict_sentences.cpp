@@ -61,7 +61,7 @@ const AxisWords& words_of(Axis axis) {
     return *std::find_if(axis_words.begin(), axis_words.end(), [axis](const AxisWords& one) { return one.axis == axis; });
 }
 
-/// Whether samples differ between plates where an oil does not.
+/// Tells whether samples differ between plates where an oil does not.
 bool is_of_filling(const diagnose::Kind& kind) {
     return kind.link == Link::history && (kind.axis == Axis::gap || kind.axis == Axis::radius);
 }

@@ -178,7 +178,8 @@ std::vector<MisfitStatistic> statistics_of(const Inference& inference, const Fit
     return all;
 }
 
-/// Whether the statistic is the sum of the squares of whole groups: over scales that these tell themselves it would say nothing.
+/// Tells whether the statistic is the sum of the squares of whole groups. Over scales that these tell themselves it would say
+/// nothing.
 bool is_of_whole_groups(const MisfitStatistic& statistic) {
     return statistic.cause.empty() && statistic.coordinate == Coordinate::none;
 }

@@ -14,7 +14,7 @@ namespace coagula::diagnose {
 
 namespace {
 
-/// What is the same for all columns.
+/// It fits columns again, and holds what is the same for all of them.
 class FittedScales {
 public:
     FittedScales(const Eigen::MatrixXd& basis, const std::vector<ScaledRows>& groups) : basis_(basis), groups_(groups) {
@@ -59,7 +59,7 @@ private:
         return change;
     }
 
-    /// What is left where the fitted quantities follow by these variances.
+    /// Returns what is left of the column where the fitted quantities follow by these variances.
     Eigen::VectorXd fitted_again(const Eigen::VectorXd& column, const std::vector<double>& variances,
                                  Eigen::LLT<Eigen::MatrixXd>& precision) const {
         // The basis is orthonormal and orthogonal to the column: the groups change both from there.

@@ -10,9 +10,10 @@
 
 namespace coagula::diagnose {
 
-/// Departures that share a scale: the rows of each estimate of noise, and the effects of the samples, in the order of Departures.
-/// What is known, as a stated error, belongs to none; the errors of the prediction neither, for how much a material may vary is a
-/// matter of the model: real ones yield or relax faster than one by whose measure all others are judged.
+/// Returns the departures that share a scale: the rows of each estimate of noise, and the effects of the samples, in the order of
+/// Departures.
+/// A stated error is known and belongs to none. The errors of the prediction belong to none either: how much a material may vary is
+/// a matter of the model, and real ones yield or relax faster than one by whose measure all others are judged.
 std::vector<ScaledRows> scaled_rows(const ErrorModel& errors);
 
 /// Fits each column again, with the most probable factors on the deviations of its groups, and returns its departures over these.

@@ -148,7 +148,7 @@ private:
         }
     }
 
-    /// What differs between plates in the sample, and not in an oil: the sample, or how it was filled.
+    /// Samples that differ, or were filled otherwise, differ between plates where an oil does not.
     void add_fillings() {
         Eigen::VectorXd scale = level_;
         for (Index row = 0; row < scale.size(); ++row) {

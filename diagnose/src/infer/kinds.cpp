@@ -93,7 +93,7 @@ bool run_together(const std::vector<Observation>& observations, Axis a, Axis b) 
     return squares > 0 && std::abs((along * beside).sum()) > nearly * std::sqrt(squares);
 }
 
-/// How plates, gap, walls and trap are set in a row: what a sample departs by may be due to these. Lengths as hundredths of
+/// It holds how plates, gap, walls and trap are set in a row, to which a departure may be due. Lengths are hundredths of
 /// logarithms, 0 where they are not told.
 using Setting = std::tuple<long, long, bool, bool>;
 
@@ -118,7 +118,7 @@ std::set<Setting> settings_of(const Experiment& experiment, const std::string& s
     return settings;
 }
 
-/// Whether nothing else was measured as this sample was.
+/// Tells whether nothing else was measured as this sample was.
 bool is_set_apart(const Experiment& experiment, const std::string& sample) {
     const std::set<Setting> others = settings_of(experiment, sample, true);
     const std::set<Setting> own = settings_of(experiment, sample, false);
@@ -127,8 +127,8 @@ bool is_set_apart(const Experiment& experiment, const std::string& sample) {
     });
 }
 
-/// Whether a kind, where no cause fits, tells no more than another one: what runs in the order of time is not told from the time,
-/// and a sample that was set apart not from its setting.
+/// Tells whether a kind, where no cause fits, says no more than another one. An order in time is not told from the time, and a
+/// sample that was set apart not from its setting.
 bool stands_for(Kind kind, Kind other, const std::vector<Observation>& observations, bool sample_is_set_apart) {
     constexpr std::array settings{Axis::time, Axis::gap, Axis::radius, Axis::level};
     if (kind.axis == Axis::sample) {

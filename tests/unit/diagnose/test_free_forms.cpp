@@ -60,7 +60,7 @@ Kind best_form(std::optional<double> factor_of_oil) {
     return free_forms(inference, inference.fit({})).front().kind;
 }
 
-/// What the plates do, an oil shows, too. What it does not show is in the samples, or in how they were filled.
+/// An oil shows what the plates do. The rest is in the samples, or in how they were filled.
 TEST(FreeForms, AnOilTellsPlatesFromFillings) {
     EXPECT_EQ(best_form(1.15), (Kind{Link::geometry, Axis::gap}));
     EXPECT_EQ(best_form(1.0), (Kind{Link::history, Axis::gap}));

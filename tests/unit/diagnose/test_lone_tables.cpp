@@ -16,7 +16,7 @@
 namespace coagula::diagnose {
 namespace {
 
-/// Of a sample over the mean of all.
+/// Returns the level of a sample over the mean of all.
 double level_of(std::uint64_t seed) {
     return 1 + 0.1 * drawn_normal(seed, 100);
 }
