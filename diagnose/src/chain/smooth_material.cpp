@@ -183,7 +183,7 @@ Eigen::VectorXd minimum(const Eigen::MatrixXd& normal, const Eigen::VectorXd& ri
     const double noticeable = 1e-10 * right.cwiseAbs().maxCoeff();
     Flags free = !not_negative || x.array() > 0;
     for (Index round = 0; round < 5 * x.size(); ++round) {
-        // Those coefficients that are not free are held at zero.
+        // The coefficients that are not free stay at zero.
         const Eigen::VectorXd chosen = free.cast<double>();
         Eigen::MatrixXd of_free = chosen.asDiagonal() * normal * chosen.asDiagonal();
         of_free.diagonal() += Eigen::VectorXd::Ones(x.size()) - chosen;

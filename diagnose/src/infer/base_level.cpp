@@ -31,23 +31,23 @@ double Inference::log_level(Model model) const {
 
 std::vector<Inference::MeasuredSize> Inference::measured_sizes() const {
     const DataSet& data = errors_.data();
-    if (!scales_ || std::isfinite(stiffness_departure(0))) {
+    // A smooth material follows the data itself, and an oil has one modulus.
+    const bool network = forward_.experiment().material.kind == MaterialKind::network;
+    if (!network || !scales_ || std::isfinite(stiffness_departure(0))) {
         return {};
     }
-    std::map<std::pair<std::size_t, std::size_t>, MeasuredSize> sizes;
+    std::map<std::pair<std::size_t, std::size_t>, std::vector<Index>> rows;
     for (std::size_t k = 0; k < data.observations.size(); ++k) {
         const Observation& one = data.observations[k];
         if (forward_.scales(one)) {
-            MeasuredSize& size = sizes[{one.measurement, one.row}];
-            size.observations.push_back(static_cast<Index>(k));
-            size.logarithm += one.value * one.value;  // its square, so far
+            rows[{one.measurement, one.row}].push_back(static_cast<Index>(k));
         }
     }
     std::vector<MeasuredSize> all;
-    for (auto& [row, size] : sizes) {
-        size.logarithm = 0.5 * std::log(size.logarithm);
-        if (std::isfinite(size.logarithm)) {
-            all.push_back(std::move(size));
+    for (auto& [row, observations] : rows) {
+        const double size = data.values(observations).norm();
+        if (size > 0) {
+            all.push_back({std::move(observations), std::log(size)});
         }
     }
     return all;

@@ -123,8 +123,8 @@ private:
     double log_prior(double log_stiffness) const;
     /// |G*| of a row that shows the stiffness, or its one modulus or viscosity.
     struct MeasuredSize {
-        std::vector<Index> observations = {};
-        double logarithm = 0;
+        std::vector<Index> observations;
+        double logarithm;
     };
     std::vector<MeasuredSize> measured_sizes() const;
     double log_prior_of_level(const Eigen::VectorXd& predicted) const;

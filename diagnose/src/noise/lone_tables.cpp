@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 
 namespace coagula::diagnose {
@@ -71,31 +72,30 @@ double chance_of(const Eigen::ArrayXd& others, double distance) {
 /// The sample of three or more that lies apart from the others by more than chance makes it.
 std::optional<LoneTable> sample_apart(const Replicates& replicates, const std::vector<double>& levels) {
     constexpr double rare = 0.05;
-    std::map<std::string, std::vector<std::size_t>> tables;
-    for (std::size_t table = 0; table < levels.size(); ++table) {
-        tables[replicates.samples[table]].push_back(table);
-    }
     constexpr std::size_t fewest_samples = 3;
+    std::map<std::string, std::vector<double>> tables;
+    for (std::size_t table = 0; table < levels.size(); ++table) {
+        tables[replicates.samples[table]].push_back(levels[table]);
+    }
     if (is_phase(replicates) || tables.size() < fewest_samples) {
         return std::nullopt;
     }
+    std::vector<double> of_samples;
+    for (const auto& [sample, own] : tables) {
+        of_samples.push_back(std::accumulate(own.begin(), own.end(), 0.0) / static_cast<double>(own.size()));
+    }
     double least = rare;
     std::optional<LoneTable> found;
+    auto here = of_samples.begin();
     for (const auto& [sample, own] : tables) {
-        std::vector<double> others;
-        double here = 0;
-        for (const auto& [other, places] : tables) {
-            double sum = 0;
-            for (const std::size_t place : places) {
-                sum += levels[place];
-            }
-            const double level = sum / static_cast<double>(places.size());
-            other == sample ? here = level : others.emplace_back(level);
-        }
+        std::vector<double> others(of_samples.begin(), here);
+        others.insert(others.end(), here + 1, of_samples.end());
         const Eigen::ArrayXd rest = Eigen::ArrayXd::Map(others.data(), static_cast<Index>(others.size()));
-        if (const double chance = chance_of(rest, here - rest.mean()); chance < least) {
+        const double distance = *here++ - rest.mean();
+        if (const double chance = chance_of(rest, distance); chance < least) {
             least = chance;
-            found = {replicates.labels[own.front()], sample, replicates.observable, std::exp(here - rest.mean()), false, ""};
+            const auto first = std::find(replicates.samples.begin(), replicates.samples.end(), sample) - replicates.samples.begin();
+            found = {replicates.labels[static_cast<std::size_t>(first)], sample, replicates.observable, std::exp(distance)};
         }
     }
     return found;

@@ -65,7 +65,6 @@ TEST(FittedScales, WhatIsFittedFollowsTheQuieterGroup) {
     const Eigen::VectorXd left = data - basis * (basis.transpose() * data);
     const std::vector<ScaledRows> groups{{4, rows_between(0, numbers)}, {4, rows_between(numbers, 2 * numbers)}};
     const Eigen::VectorXd over = over_fitted_scales(left, basis, groups);
-    const Eigen::ArrayXd ratio = over.array() / (data.array() - data.head(numbers).mean());
     EXPECT_NEAR(over.head(numbers).mean(), 0, 0.15);
     EXPECT_NEAR(over.squaredNorm(), static_cast<double>(2 * numbers), 8);
     EXPECT_LT(over.tail(numbers).norm(), 0.2 * data.tail(numbers).norm());
