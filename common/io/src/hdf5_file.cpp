@@ -136,7 +136,18 @@ bool File::has(const std::string& object) const {
 }
 
 Handle File::open_object(const std::string& object) const {
-    return {H5Oopen(id_.get(), object.c_str(), H5P_DEFAULT), H5Oclose};
+    if (!last_ || last_name_ != object) {
+        keep_open(object, {H5Oopen(id_.get(), object.c_str(), H5P_DEFAULT), H5Oclose});
+    }
+    if (last_) {
+        H5Iinc_ref(last_.get());
+    }
+    return {last_.get(), H5Oclose};
+}
+
+void File::keep_open(const std::string& object, Handle opened) const {
+    last_ = std::move(opened);
+    last_name_ = object;
 }
 
 bool File::is_group(const std::string& object) const {
@@ -158,24 +169,29 @@ std::vector<std::string> File::children(const std::string& group) const {
     return names;
 }
 
-std::vector<std::string> File::datasets_below(const std::string& object) const {
+void File::for_each_dataset(const std::string& object, const std::function<void(const std::string&)>& visit) const {
     if (is_dataset(object)) {
-        return {object};
+        visit(object);
+        return;
     }
     std::vector<std::string> names;
     const Handle opened = open_object(object);
     if (opened && H5Lvisit(opened.get(), H5_INDEX_NAME, H5_ITER_INC, append_name, &names) < 0) {
         fail(object, "cannot be listed: the file is damaged");
     }
+    std::sort(names.begin(), names.end());
     const std::string folder = object.ends_with('/') ? object : object + '/';
-    std::vector<std::string> datasets;
     for (const std::string& name : names) {
         const std::string full = folder + name;
         if (is_dataset(full)) {
-            datasets.push_back(full);
+            visit(full);
         }
     }
-    std::sort(datasets.begin(), datasets.end());
+}
+
+std::vector<std::string> File::datasets_below(const std::string& object) const {
+    std::vector<std::string> datasets;
+    for_each_dataset(object, [&](const std::string& dataset) { datasets.push_back(dataset); });
     return datasets;
 }
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -106,7 +107,8 @@ public:
     bool is_dataset(const std::string& object) const;
     /// Names of the links of a group, sorted.
     std::vector<std::string> children(const std::string& group) const;
-    /// Paths of all datasets at or below an object, sorted.
+    /// Calls `visit` with the path of every dataset at or below an object, sorted.
+    void for_each_dataset(const std::string& object, const std::function<void(const std::string&)>& visit) const;
     std::vector<std::string> datasets_below(const std::string& object) const;
 
     Content content(const std::string& dataset) const;
@@ -175,6 +177,7 @@ private:
     std::vector<std::string> read_texts(const std::string& object, const Handle& type, const Handle& space, Read&& read) const;
     void make_room(const std::string& object);
     Handle open_object(const std::string& object) const;
+    void keep_open(const std::string& object, Handle opened) const;
     Handle open_dataset(const std::string& dataset) const;
     Shape shape_of(const Handle& opened, const std::string& dataset) const;
     static Handle slice_of(const Handle& opened, std::size_t frame);
@@ -186,6 +189,9 @@ private:
     std::size_t length_ = 0;            ///< of an opened file [byte]
     std::unique_ptr<FileImage> image_;  ///< of a created file; outlives the handle
     Handle id_;
+    mutable std::string last_name_;
+    mutable Handle last_;     ///< the object that was opened or made last, as one asks for its parts one after another
+    std::string last_group_;  ///< that was made or found last
 };
 
 }  // namespace coagula::io::hdf5

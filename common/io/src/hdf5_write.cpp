@@ -158,6 +158,7 @@ void File::require_room() const {
 }
 
 std::span<const char> File::close() {
+    last_ = Handle();
     require_written(H5Fflush(id_.get(), H5F_SCOPE_GLOBAL) >= 0, path_, "to flush");
     id_ = Handle();
     require_room();
@@ -170,38 +171,45 @@ std::span<const char> File::close() {
 }
 
 void File::create_group(const std::string& group) {
-    if (group.empty() || has(group)) {
+    if (group.empty() || group == last_group_) {
         return;
     }
-    make_room(group);
-    const Handle created(H5Gcreate2(id_.get(), group.c_str(), H5P_DEFAULT, group_creation().get(), H5P_DEFAULT), H5Gclose);
-    require_written(static_cast<bool>(created), path_, group);
+    if (!has(group)) {
+        create_group(group.substr(0, group.rfind('/')));
+        const Handle created(H5Gcreate2(id_.get(), group.c_str(), H5P_DEFAULT, group_creation().get(), H5P_DEFAULT), H5Gclose);
+        require_written(static_cast<bool>(created), path_, group);
+    }
+    last_group_ = group;
 }
 
 /// Removes what bears the name and makes the groups on the way to it. (HDF5 would make them, too, but with time stamps.)
 void File::make_room(const std::string& object) {
-    remove(object);
     create_group(object.substr(0, object.rfind('/')));
+    if (H5Lexists(id_.get(), object.c_str(), H5P_DEFAULT) > 0) {
+        remove(object);
+    }
 }
 
 void File::write_numbers(const std::string& dataset, const Shape& shape, hid_t file_type, hid_t memory_type, const void* values) {
     make_room(dataset);
-    const Handle created(H5Dcreate2(id_.get(), dataset.c_str(), file_type, array_space(shape).get(), H5P_DEFAULT,
-                                    creation_properties(shape, H5Tget_size(file_type)).get(), H5P_DEFAULT),
-                         H5Dclose);
+    Handle created(H5Dcreate2(id_.get(), dataset.c_str(), file_type, array_space(shape).get(), H5P_DEFAULT,
+                              creation_properties(shape, H5Tget_size(file_type)).get(), H5P_DEFAULT),
+                   H5Dclose);
     require_written(
         created && (count(shape) == 0 || H5Dwrite(created.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0), path_,
         dataset);
+    keep_open(dataset, std::move(created));
 }
 
 void File::write_text(const std::string& dataset, const std::string& text) {
     make_room(dataset);
     const Handle type = fixed_text_type(text);
-    const Handle created(H5Dcreate2(id_.get(), dataset.c_str(), type.get(), scalar_space().get(), H5P_DEFAULT,
-                                    creation_properties({}, 1).get(), H5P_DEFAULT),
-                         H5Dclose);
+    Handle created(H5Dcreate2(id_.get(), dataset.c_str(), type.get(), scalar_space().get(), H5P_DEFAULT,
+                              creation_properties({}, 1).get(), H5P_DEFAULT),
+                   H5Dclose);
     require_written(created && H5Dwrite(created.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()) >= 0, path_,
                     dataset);
+    keep_open(dataset, std::move(created));
 }
 
 void File::write_attribute(const std::string& object, const std::string& name, hid_t type, const Handle& space,
@@ -255,6 +263,8 @@ void File::link(const std::string& existing, const std::string& name) {
 }
 
 void File::remove(const std::string& object) {
+    last_ = Handle();
+    last_group_.clear();
     require_written(!has(object) || H5Ldelete(id_.get(), object.c_str(), H5P_DEFAULT) >= 0, path_, object);
 }
 

@@ -92,7 +92,7 @@ void write_datasets(const std::string& path, const std::vector<Dataset>& dataset
 
 std::vector<Dataset> values_in(const File& file, const std::string& group) {
     std::vector<Dataset> results;
-    for (const std::string& name : file.datasets_below(group)) {
+    file.for_each_dataset(group, [&](const std::string& name) {
         Dataset dataset{name, file.shape(name), {}, {}, {}};
         const Content content = file.content(name);
         if (content == Content::real) {
@@ -102,10 +102,10 @@ std::vector<Dataset> values_in(const File& file, const std::string& group) {
         } else if (content == Content::text && dataset.shape.empty()) {
             dataset.values = file.read_text(name);
         } else {
-            continue;  // not one of ours
+            return;  // not one of ours
         }
         results.push_back(std::move(dataset));
-    }
+    });
     return results;
 }
 
