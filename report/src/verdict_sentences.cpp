@@ -88,9 +88,10 @@ const char* acts_like(const diagnose::Kind& kind) {
 }
 
 /// What a condition of a name says of the best cause where it does not hold.
-const std::array<std::pair<const char*, const char*>, 10> failed_conditions{
+const std::array<std::pair<const char*, const char*>, 11> failed_conditions{
     {{"beats-free-forms", "a smooth departure without any cause explains the data as well"},
      {"beats-other-axes", "a departure along another axis explains the data as well"},
+     {"beats-readings", "a torque or an angle that the instrument does not read in proportion explains the data as well"},
      {"every-cause-counts", "one of its two causes explains the data about as well alone"},
      {"inside-range", "a value lies at the end of its physical range"},
      {"narrower-than-prior", "the data leave its value as open as it was"},

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -32,6 +34,10 @@ constexpr std::array<std::pair<Coordinate, Kind>, 11> factors_on_modulus{
      {Coordinate::distance, {Link::structure, Axis::distance}},
      {Coordinate::pore_radius, {Link::structure, Axis::pore_radius}}}};
 
+void append(Directions more, Directions& all) {
+    std::move(more.begin(), more.end(), std::back_inserter(all));
+}
+
 bool is_known(double value) {
     return value > 0 && std::isfinite(value);
 }
@@ -44,6 +50,14 @@ double geometric_mean(const Eigen::VectorXd& values) {
         count += is_known(value) ? 1 : 0;
     }
     return count > 0 ? std::exp(sum / count) : 1;
+}
+
+/// Of the tool between plates or under a cone [rad]; of another tool what is in proportion to it.
+double angle_of(const Observation& one) {
+    if (is_known(one.cone_angle)) {
+        return one.strain * one.cone_angle;
+    }
+    return is_known(one.gap) && is_known(one.plate_radius) ? one.strain * one.gap / one.plate_radius : one.strain;
 }
 
 bool varies(const Eigen::VectorXd& scale) {
@@ -66,7 +80,10 @@ class AllDirections {
 public:
     /// @param prediction of the base model.
     AllDirections(const DataSet& data, const Eigen::VectorXd& prediction)
-        : data_(data), level_(complex_moduli(data.observations, prediction)), turned_(turned(data, prediction)) {}
+        : data_(data),
+          prediction_(prediction),
+          level_(complex_moduli(data.observations, prediction)),
+          turned_(turned(data, prediction)) {}
 
     std::map<Kind, Directions> find() && {
         for (const auto& [coordinate, kind] : factors_on_modulus) {
@@ -81,6 +98,12 @@ public:
         return std::move(found_);
     }
 
+    Directions readings() && {
+        Directions all = along_reading(rank_of_angle());
+        append(along_reading(rank_of_torque()), all);
+        return all;
+    }
+
 private:
     /// A quantity of each number over its geometric mean; 0 where it is not known.
     template <class Quantity>
@@ -93,17 +116,20 @@ private:
 
     bool goes_along(Coordinate coordinate) const { return rank_along(data_.observations, coordinate).maxCoeff() > 0; }
 
-    void add(Kind kind, const Eigen::VectorXd& scale, const std::vector<Eigen::VectorXd>& ranks, double length,
-             bool since_first = false) {
+    /// Of G', of G'' or of both apart. @param since_first from nothing in the earliest row on.
+    Directions along(const Eigen::VectorXd& scale, const std::vector<Eigen::VectorXd>& ranks, double length,
+                     bool since_first = false) const {
+        Directions all;
         for (const Departing departing : {Departing::storage, Departing::loss, Departing::both}) {
             Eigen::MatrixXd factor = smooth_factor(data_.observations, departing, ranks, false, length);
             if (since_first) {
                 subtract_earliest(ranks.front(), factor);
             }
             if (!factor.isZero(1e-6) && !scale.isZero(0)) {
-                found_[kind].emplace_back(scale.asDiagonal() * factor);
+                all.emplace_back(scale.asDiagonal() * factor);
             }
         }
+        return all;
     }
 
     /// Takes off what each observable has in its earliest row.
@@ -121,12 +147,17 @@ private:
         }
     }
 
-    /// Smooth along a coordinate, of G', of G'' or of both apart. @param since_first from nothing in the earliest row on.
+    void add(Kind kind, Directions more) {
+        if (!more.empty()) {
+            append(std::move(more), found_[kind]);
+        }
+    }
+
     void add_smooth(Kind kind, const Eigen::VectorXd& scale, Coordinate coordinate, bool since_first = false) {
         const Eigen::VectorXd rank = rank_along(data_.observations, coordinate);
         for (const double length : smooth_lengths) {
             if (rank.maxCoeff() > 0) {
-                add(kind, scale, {rank}, length, since_first);
+                add(kind, along(scale, {rank}, length, since_first));
             }
         }
     }
@@ -134,7 +165,7 @@ private:
     /// A departure that is there from the beginning is no course in time.
     void add_course(Kind kind, const Eigen::VectorXd& scale) { add_smooth(kind, scale, Coordinate::time, true); }
 
-    void add_constant(Kind kind, const Eigen::VectorXd& scale) { add(kind, scale, {}, 1); }
+    void add_constant(Kind kind, const Eigen::VectorXd& scale) { add(kind, along(scale, {}, 1)); }
 
     /// Plates that take a part of the strain, move, or let the rim dry: the more, the smaller they are or the closer.
     void add_plates() {
@@ -160,12 +191,15 @@ private:
         }
     }
 
-    /// A torque beside that of the sample, also one that does not grow with the angle; a tool that gives way; a phase that is off.
+    /// A torque beside that of the sample, also one that does not grow with the angle; a tool that gives way; a torque or an angle
+    /// that is not read in proportion; a phase that is off.
     void add_tool() {
         const double mean_level = geometric_mean(level_);
         const auto per_torque = [](const Observation& one) { return 1 / one.torque_per_modulus; };
         const Eigen::VectorXd torque = mean_level * relative(per_torque);
-        const Eigen::VectorXd offset = mean_level * relative([&](const Observation& one) { return per_torque(one) / one.strain; });
+        const Eigen::VectorXd offset =
+            mean_level * relative([&](const Observation& one) { return per_torque(one) / angle_of(one); });
+        add_readings();
         add_smooth({Link::tool, Axis::frequency}, torque, Coordinate::angular_frequency);
         if (goes_along(Coordinate::strain)) {
             add_constant({Link::tool, Axis::strain}, offset);
@@ -184,6 +218,52 @@ private:
         }
     }
 
+    void add_readings() {
+        const Eigen::VectorXd strain = rank_along(data_.observations, Coordinate::strain);
+        for (const Eigen::VectorXd& rank : {rank_of_angle(), rank_of_torque()}) {
+            if (goes_along(Coordinate::strain) && !run_together(rank, strain)) {
+                add({Link::tool, Axis::strain}, along_reading(rank));
+            }
+        }
+    }
+
+    Eigen::VectorXd rank_of_angle() const {
+        return ranks_of_rows([](const Observation& one, double /*level*/) { return angle_of(one); });
+    }
+    Eigen::VectorXd rank_of_torque() const {
+        return ranks_of_rows([](const Observation& one, double level) { return angle_of(one) * one.torque_per_modulus * level; });
+    }
+
+    template <class Quantity>
+    Eigen::VectorXd ranks_of_rows(const Quantity& quantity) const {
+        std::vector<double> values;
+        for (Index row = 0; row < level_.size(); ++row) {
+            const Observation& one = data_.observations[static_cast<std::size_t>(row)];
+            values.push_back(is<Modulus>(one) ? quantity(one, level_[row]) : unset);
+        }
+        return ranks_of(values);
+    }
+
+    /// A reading that is not in proportion is so by a few hundredths, gently, and leaves the phase as it is.
+    Directions along_reading(const Eigen::VectorXd& rank) const {
+        constexpr double size_of_readings = 0.2;
+        if (rank.maxCoeff() <= 0) {
+            return {};
+        }
+        const Eigen::MatrixXd storage = smooth_factor(data_.observations, Departing::storage, {rank}, false, smooth_lengths.back());
+        std::map<std::pair<std::size_t, std::size_t>, Index> known;
+        Eigen::MatrixXd factor = Eigen::MatrixXd::Zero(storage.rows(), storage.cols());
+        for (const bool loss : {false, true}) {
+            for (Index k = 0; k < factor.rows(); ++k) {
+                const Observation& one = data_.observations[static_cast<std::size_t>(k)];
+                if (is<Modulus>(one) && is_loss(one) == loss) {
+                    factor.row(k) = storage.row(known.try_emplace({one.measurement, one.row}, k).first->second);
+                }
+            }
+        }
+        return {size_of_readings * (prediction_.asDiagonal() * factor)};
+    }
+
     /// One sample that goes its own way, as a whole or along a coordinate.
     void add_sample(Index sample) {
         Eigen::VectorXd scale = level_;
@@ -198,6 +278,7 @@ private:
     }
 
     const DataSet& data_;
+    const Eigen::VectorXd& prediction_;
     Eigen::VectorXd level_;   ///< |G*| of each number
     Eigen::VectorXd turned_;  ///< what a small angle between stress and strain does to it
     std::map<Kind, Directions> found_;
@@ -289,6 +370,12 @@ Follows followed_by(const FreeForm& form, const DataSet& data, const Eigen::Vect
     std::tie(follows.from, follows.to) = ends_of(data.observations, along);
     follows.change = change_along(rank_along(data.observations, along), data.observations, share);
     return follows;
+}
+
+double log_factor_of_readings(const Inference& inference, const Fit& base) {
+    const DataSet& data = inference.errors().data();
+    const Directions directions = AllDirections(data, inference.fitted(inference.prediction(base.model))).readings();
+    return directions.empty() ? -std::numeric_limits<double>::infinity() : departures_along(inference, base, directions).log_factor;
 }
 
 std::vector<FreeForm> free_forms(const Inference& inference, const Fit& base) {

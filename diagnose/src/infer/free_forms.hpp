@@ -32,4 +32,8 @@ Follows followed_by(const FreeForm& form, const DataSet& data, const Eigen::Vect
 /// Finds the free forms of all links along all axes that these data vary.
 std::vector<FreeForm> free_forms(const Inference& inference, const Fit& base);
 
+/// The factor on the evidence of the base model by an instrument that reads torque or angle not in proportion, also where these run
+/// with the strain, so that no free form tells them from the material; as a logarithm.
+double log_factor_of_readings(const Inference& inference, const Fit& base);
+
 }  // namespace coagula::diagnose

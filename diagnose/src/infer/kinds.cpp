@@ -76,21 +76,11 @@ Kind told_kind(Kind kind, const Experiment& experiment) {
 
 /// Whether two axes rise and fall together in all rows, so that a function of one is one of the other. A row that has no place
 /// along an axis counts as its lowest.
-bool run_together(const std::vector<Observation>& observations, Axis a, Axis b) {
-    constexpr double nearly = 0.98;
+bool axes_run_together(const std::vector<Observation>& observations, Axis a, Axis b) {
     const Coordinate one = coordinate_along(a);
     const Coordinate other = coordinate_along(b);
-    if (one == other || one == Coordinate::none || other == Coordinate::none) {
-        return false;
-    }
-    const auto places = [&](Coordinate coordinate) -> Eigen::ArrayXd {
-        const Eigen::ArrayXd rank = rank_along(observations, coordinate).array();
-        return rank - rank.mean();
-    };
-    const Eigen::ArrayXd along = places(one);
-    const Eigen::ArrayXd beside = places(other);
-    const double squares = along.square().sum() * beside.square().sum();
-    return squares > 0 && std::abs((along * beside).sum()) > nearly * std::sqrt(squares);
+    return one != other && one != Coordinate::none && other != Coordinate::none &&
+           run_together(rank_along(observations, one), rank_along(observations, other));
 }
 
 /// It holds how plates, gap, walls and trap are set in a row, to which a departure may be due. Lengths are hundredths of
@@ -134,7 +124,7 @@ bool stands_for(Kind kind, Kind other, const std::vector<Observation>& observati
     if (kind.axis == Axis::sample) {
         return sample_is_set_apart && std::find(settings.begin(), settings.end(), other.axis) != settings.end();
     }
-    return (kind.axis == Axis::time || kind.axis == Axis::age) && run_together(observations, kind.axis, other.axis);
+    return (kind.axis == Axis::time || kind.axis == Axis::age) && axes_run_together(observations, kind.axis, other.axis);
 }
 
 /// The kind of a cause as far as an experiment tells it. Where gap and plate are the same in all rows, what depends on the modulus
@@ -146,6 +136,18 @@ Kind told_kind(const Mechanism& cause, const Inference& inference) {
     const bool level = told.axis == Axis::level && cause.kind.axis != Axis::level;
     const bool sweeps = rank_along(observations, Coordinate::angular_frequency).maxCoeff() > 0;
     return level && sweeps && !is_proportional(cause, observations) ? Kind{told.link, Axis::frequency} : told;
+}
+
+/// The axis with the largest probability, whatever acts along it, and the link that acts along it most probably.
+const FollowedKind& most_probable(const std::vector<FollowedKind>& kinds) {
+    const auto axis_of = [](const FollowedKind& one) { return one.kind.axis == Axis::age ? Axis::time : one.kind.axis; };
+    std::map<Axis, double> axes;
+    for (const FollowedKind& one : kinds) {
+        axes[axis_of(one)] += one.posterior;
+    }
+    return *std::max_element(kinds.begin(), kinds.end(), [&](const FollowedKind& a, const FollowedKind& b) {
+        return std::pair{axes.at(axis_of(a)), a.posterior} < std::pair{axes.at(axis_of(b)), b.posterior};
+    });
 }
 
 Eigen::VectorXd prediction_of_base(const Comparison& comparison, const Inference& inference) {
@@ -234,7 +236,7 @@ std::vector<FollowedKind> kinds_of(const Comparison& comparison, const Inference
 }
 
 Follows follows_of(const std::vector<FollowedKind>& kinds, const Comparison& comparison, const Inference& inference) {
-    const FollowedKind& first = kinds.front();
+    const FollowedKind& first = most_probable(kinds);
     const Kind shown = first.kind.axis == Axis::age ? Kind{Link::history, Axis::time} : first.kind;
     const auto form =
         std::find_if(comparison.forms.begin(), comparison.forms.end(), [&](const FreeForm& one) { return one.kind == shown; });

@@ -102,6 +102,10 @@ Eigen::VectorXd rank_along(const std::vector<Observation>& observations, Coordin
     for (const Observation& observation : observations) {
         values.push_back(coordinate_of(observation, coordinate));
     }
+    return ranks_of(values);
+}
+
+Eigen::VectorXd ranks_of(const std::vector<double>& values) {
     std::vector<double> sorted;
     std::copy_if(values.begin(), values.end(), std::back_inserter(sorted), [](double value) { return std::isfinite(value); });
     std::sort(sorted.begin(), sorted.end());
@@ -113,6 +117,14 @@ Eigen::VectorXd rank_along(const std::vector<Observation>& observations, Coordin
             std::isfinite(values[k]) ? static_cast<double>(place) / static_cast<double>(sorted.size() - 1) : 0.0;
     }
     return rank;
+}
+
+bool run_together(const Eigen::VectorXd& one, const Eigen::VectorXd& other) {
+    constexpr double nearly = 0.98;
+    const Eigen::ArrayXd along = one.array() - one.mean();
+    const Eigen::ArrayXd beside = other.array() - other.mean();
+    const double squares = along.square().sum() * beside.square().sum();
+    return squares > 0 && std::abs((along * beside).sum()) > nearly * std::sqrt(squares);
 }
 
 Eigen::MatrixXd smooth_factor(const std::vector<Observation>& observations, Departing departing, std::vector<Eigen::VectorXd> ranks,

@@ -30,6 +30,10 @@ struct SmoothDeparture {
 
 /// Ranks 0 .. 1 of a coordinate among its values; 0 where it is unknown or does not vary.
 Eigen::VectorXd rank_along(const std::vector<Observation>& observations, Coordinate coordinate);
+/// The same among any values, NaN where one is unknown.
+Eigen::VectorXd ranks_of(const std::vector<double>& values);
+/// Whether two ranks rise and fall together, so that a function of one is one of the other.
+bool run_together(const Eigen::VectorXd& one, const Eigen::VectorXd& other);
 
 /// Columns U with U U^T = the covariance of a departure of unit size, as far as a ten-thousandth of it: smooth along these ranks,
 /// the same everywhere where there are none. None where nothing departs.

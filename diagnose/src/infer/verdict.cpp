@@ -2,6 +2,7 @@
 #include "verdict.hpp"
 
 #include "departures.hpp"
+#include "free_forms.hpp"
 #include "kinds.hpp"
 #include "localise.hpp"
 
@@ -189,6 +190,20 @@ double best_along_other_axes(const std::vector<FreeForm>& forms, Axis own) {
     return best;
 }
 
+/// How much more the free form of a softer or stiffer material explains than an instrument that reads torque or angle not in
+/// proportion, in logarithms; NaN where no cause is such a material.
+double over_readings(const Comparison& comparison, const Inference& inference) {
+    constexpr Kind along_strain{Link::material, Axis::strain};
+    const Hypothesis& causes = comparison.all[comparison.winner].fit.hypothesis;
+    const auto form = std::find_if(comparison.forms.begin(), comparison.forms.end(),
+                                   [&](const FreeForm& one) { return one.kind == along_strain; });
+    const bool concerns =
+        std::any_of(causes.begin(), causes.end(), [&](const Mechanism* one) { return one->kind == along_strain; });
+    return concerns && form != comparison.forms.end()
+               ? form->log_factor - log_factor_of_readings(inference, comparison.all.front().fit)
+               : unset;
+}
+
 /// What a name needs beside a probability of 95 %.
 std::vector<Condition> conditions_of(const Comparison& comparison, const Inference& inference, const Priors& priors,
                                      const DiagnosisOptions& options, const Gain& gain) {
@@ -198,6 +213,7 @@ std::vector<Condition> conditions_of(const Comparison& comparison, const Inferen
     const auto& ends = winner.fit.active_end;
     const auto at_end = static_cast<double>(std::count(ends.begin(), ends.end(), true));
     const double over_other_axes = winner.log_weight() - base.fit.log_evidence - best_along_other_axes(comparison.forms, kind.axis);
+    const double beyond_readings = over_readings(comparison, inference);
     const double over_forms = winner.log_weight() - comparison.log_weight_of_none(priors);
     const double left = share_left(comparison, inference);
     const double width = widest_interval(winner.fit);
@@ -212,6 +228,7 @@ std::vector<Condition> conditions_of(const Comparison& comparison, const Inferen
     const double over_smooth = of_moduli ? gain.rmse_flexible / gain.rmse_extended : unset;
     return {{"beats-free-forms", over_forms, decisive, over_forms > decisive},
             {"beats-other-axes", over_other_axes, favoured, over_other_axes > favoured},
+            {"beats-readings", beyond_readings, favoured, !(beyond_readings <= favoured)},
             {"every-cause-counts", over_members, decisive, over_members > decisive},
             {"inside-range", at_end, 0, at_end <= 0},
             {"narrower-than-prior", width, widest, width < widest},

@@ -11,8 +11,6 @@
 
 namespace coagula::diagnose {
 
-/// The name of the member of the causes that no cause explains.
-
 /// A fit as what a diagnosis tells of it.
 Cause cause_of(const Fit& fit, const Inference& inference);
 

@@ -40,6 +40,14 @@ Measurement run_between_plates(const std::string& sample, double gap, double fac
     return table;
 }
 
+Kind best_form_of(const Experiment& experiment) {
+    const DataSet data = data_set_of(experiment, {.sample = 0.01});
+    const Forward forward(experiment, data.observations, simulator());
+    const ErrorModel errors(data);
+    const Inference inference(forward, errors);
+    return free_forms(inference, inference.fit({})).front().kind;
+}
+
 /// The form with the largest evidence, for two gaps and a factor of 1.15 at the smaller one; as the oil shows it.
 Kind best_form(std::optional<double> factor_of_oil) {
     Experiment experiment;
@@ -53,11 +61,7 @@ Kind best_form(std::optional<double> factor_of_oil) {
         experiment.measurements.push_back(run_between_plates("o", 1e-3, 1, true));
         experiment.measurements.push_back(run_between_plates("p", 5e-4, *factor_of_oil, true));
     }
-    const DataSet data = data_set_of(experiment, {.sample = 0.01});
-    const Forward forward(experiment, data.observations, simulator());
-    const ErrorModel errors(data);
-    const Inference inference(forward, errors);
-    return free_forms(inference, inference.fit({})).front().kind;
+    return best_form_of(experiment);
 }
 
 /// An oil shows what the plates do. The rest is in the samples, or in how they were filled.
@@ -66,6 +70,45 @@ TEST(FreeForms, AnOilTellsPlatesFromFillings) {
     EXPECT_EQ(best_form(1.0), (Kind{Link::history, Axis::gap}));
     EXPECT_EQ(best_form(std::nullopt).axis, Axis::gap);
     EXPECT_NE(best_form(std::nullopt).link, Link::history) << "without an oil it may be the plates";
+}
+
+/// An amplitude sweep of a network under a plate. `factor` is on both moduli, of the strain and of the torque over that at a strain
+/// of 1e-3 under a plate of 12.5 mm.
+template <class Factor>
+Measurement swept_under(double plate_radius, const Factor& factor) {
+    const std::vector<double> strains = logarithmic_steps(1e-4, 1e-2, 16);
+    const auto all = [&](double value) { return std::vector<double>(strains.size(), value); };
+    std::vector<std::complex<double>> moduli;
+    for (const double strain : strains) {
+        moduli.emplace_back(1e5 * factor(strain, strain / 1e-3 * std::pow(plate_radius / 0.0125, 3)));
+    }
+    Measurement table{.kind = MeasurementKind::amplitude_sweep,
+                      .label = "sweep",
+                      .sample = std::to_string(plate_radius),
+                      .columns = {},
+                      .left_out = {}};
+    table.columns = {{"strain", "1", strains},
+                     {"angular_frequency", "rad/s", all(6)},
+                     {"gap", "m", all(1e-3)},
+                     {"plate_radius", "m", all(plate_radius)}};
+    add_moduli(table, moduli, 0.005, static_cast<std::uint64_t>(1e6 * plate_radius));
+    return table;
+}
+
+template <class Factor>
+Kind best_form_under_two_plates(const Factor& factor) {
+    Experiment experiment;
+    experiment.instrument = {.geometry = Geometry::plate_plate, .plate_radius = 0.0125, .gap = 1e-3};
+    experiment.measurements = {swept_under(0.0125, factor), swept_under(0.025, factor)};
+    return best_form_of(experiment);
+}
+
+/// Under plates of two radii the same strain comes with torques eight times apart.
+TEST(FreeForms, TwoPlatesTellAReadingOfTheTorqueFromTheMaterial) {
+    EXPECT_EQ(best_form_under_two_plates([](double /*strain*/, double torque) { return 1 + 0.06 * torque / (10 + torque); }),
+              (Kind{Link::tool, Axis::strain}));
+    EXPECT_EQ(best_form_under_two_plates([](double strain, double /*torque*/) { return 1 + 0.06 * strain / (1e-3 + strain); }),
+              (Kind{Link::material, Axis::strain}));
 }
 
 }  // namespace

@@ -145,6 +145,25 @@ TEST(Kinds, AxesThatRunTogetherAreNotTold) {
     EXPECT_GT(kinds_by("loading-relaxation", experiment_with({series}), false).front().posterior, 0.99) << "in no order";
 }
 
+/// Two links along one axis are together more probable than a third along another.
+TEST(Kinds, TheAxisIsThatOfAllItsLinks) {
+    const Experiment experiment = experiment_with({run_between("A", 1e-3)});
+    const DataSet data = data_set_of(experiment, {.sample = 0.1});
+    const Forward forward(experiment, data.observations, simulator());
+    const ErrorModel errors(data);
+    const Inference inference(forward, errors);
+    const auto kind = [](Link link, Axis axis, double posterior) {
+        FollowedKind one{.kind = {link, axis}};
+        one.posterior = posterior;
+        return one;
+    };
+    const auto followed = [&](const std::vector<FollowedKind>& kinds) { return follows_of(kinds, Comparison(), inference).kind; };
+    const FollowedKind time = kind(Link::history, Axis::time, 0.4);
+    const FollowedKind rate = kind(Link::material, Axis::shear_rate, 0.35);
+    EXPECT_EQ(followed({time, rate, kind(Link::tool, Axis::shear_rate, 0.25)}), rate.kind);
+    EXPECT_EQ(followed({time, rate, kind(Link::geometry, Axis::age, 0.25)}), time.kind) << "an age is a time";
+}
+
 /// The time since the filling and that since a shear are no two axes.
 TEST(Kinds, AgeAndTimeAreOneAxis) {
     const std::vector<FollowedKind> kinds = kinds_by("ageing-after-shear", experiment_with({run_between("A", 1e-3)}), false);
