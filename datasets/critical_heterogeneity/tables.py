@@ -19,7 +19,7 @@ import numpy
 
 from networks import Network, shear_modulus
 
-SETS = ("void_expansion", "brownian", "depletion", "volume_fractions", "sizes")
+SETS = ("void_expansion", "brownian", "depletion", "volume_fractions", "sizes", "void_expansion_8000", "brownian_8000")
 RATIOS = {100.0: "G_1", 10.0: "G_0.1", 1.0: "G_0.01"}  # by the shear stiffness of a particle [N/m]
 COLUMNS = {"a": "doh.a", "C": "coordination", "redundancy": "rigidity.redundancy_per_particle"}
 NETWORK = {"triangles": "topology.triangles", "tetrahedra": "topology.tetrahedra", "outside": "topology.contacts_outside_triangles",

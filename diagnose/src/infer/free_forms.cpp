@@ -12,7 +12,6 @@
 #include <iterator>
 #include <limits>
 #include <map>
-#include <tuple>
 #include <utility>
 
 namespace coagula::diagnose {
@@ -218,10 +217,19 @@ private:
         }
     }
 
+    /// Tables of one strain each differ in more than their torque.
+    bool strain_is_swept() const {
+        std::map<std::size_t, double> first;
+        return std::any_of(data_.observations.begin(), data_.observations.end(), [&](const Observation& one) {
+            const double before = first.try_emplace(one.measurement, one.set_strain).first->second;
+            return std::abs(one.set_strain / before - 1) > 0.05;
+        });
+    }
+
     void add_readings() {
         const Eigen::VectorXd strain = rank_along(data_.observations, Coordinate::strain);
         for (const Eigen::VectorXd& rank : {rank_of_angle(), rank_of_torque()}) {
-            if (goes_along(Coordinate::strain) && !run_together(rank, strain)) {
+            if (strain_is_swept() && !run_together(rank, strain)) {
                 add({Link::tool, Axis::strain}, along_reading(rank));
             }
         }
@@ -284,68 +292,6 @@ private:
     std::map<Kind, Directions> found_;
 };
 
-/// The sample that departs most, as the mean of its numbers, and by how much.
-std::pair<std::string, double> most_apart(const DataSet& data, const Eigen::ArrayXd& share) {
-    std::pair<std::string, double> found{"", 0};
-    for (Index sample = 0; sample < data.samples(); ++sample) {
-        double sum = 0;
-        double count = 0;
-        for (Index row = 0; row < share.size(); ++row) {
-            const bool own = data.sample[static_cast<std::size_t>(row)] == sample && share[row] != 0;
-            sum += own ? share[row] : 0;
-            count += own ? 1 : 0;
-        }
-        const double mean = sum / std::max(count, 1.0);
-        if (std::abs(mean) >= std::abs(found.second)) {
-            found = {data.sample_names[static_cast<std::size_t>(sample)], mean};
-        }
-    }
-    return found;
-}
-
-/// Mean of the share of those numbers that depart at least half as much as the one that departs most.
-double mean_of_largest(const Eigen::ArrayXd& share) {
-    Index most = 0;
-    const double largest = share.abs().maxCoeff(&most);
-    double sum = 0;
-    double count = 0;
-    for (const double one : share) {
-        const bool alike = one * share[most] > 0 && std::abs(one) >= 0.5 * largest;
-        sum += alike ? one : 0;
-        count += alike ? 1 : 0;
-    }
-    return sum / std::max(count, 1.0);
-}
-
-std::pair<double, double> ends_of(const std::vector<Observation>& observations, Coordinate coordinate) {
-    std::pair<double, double> ends{unset, unset};
-    for (const Observation& one : observations) {
-        const double value = coordinate_of(one, coordinate);
-        ends = std::isfinite(value) ? std::pair{std::fmin(ends.first, value), std::fmax(ends.second, value)} : ends;
-    }
-    return ends;
-}
-
-/// Mean share at the upper tenth of an axis less that at its lower tenth, of the observable that changes more.
-double change_along(const Eigen::VectorXd& rank, const std::vector<Observation>& observations, const Eigen::ArrayXd& share) {
-    double found = 0;
-    for (const bool loss : {false, true}) {
-        Eigen::Array2d sums{0, 0};
-        Eigen::Array2d counts{0, 0};
-        for (Index row = 0; row < rank.size(); ++row) {
-            if (is_loss(observations[static_cast<std::size_t>(row)]) == loss && (rank[row] <= 0.1 || rank[row] >= 0.9)) {
-                const Index end = rank[row] <= 0.1 ? 0 : 1;
-                sums[end] += share[row];
-                counts[end] += 1;
-            }
-        }
-        const Eigen::Array2d means = sums / counts.max(1.0);
-        const double change = means[1] - means[0];
-        found = std::abs(change) > std::abs(found) ? change : found;
-    }
-    return found;
-}
-
 }  // namespace
 
 Coordinate coordinate_along(Axis axis) {
@@ -353,23 +299,6 @@ Coordinate coordinate_along(Axis axis) {
     const auto known = std::find_if(factors_on_modulus.begin(), factors_on_modulus.end(),
                                     [&](const auto& one) { return one.second.axis == shown; });
     return known == factors_on_modulus.end() ? Coordinate::none : known->first;
-}
-
-Follows followed_by(const FreeForm& form, const DataSet& data, const Eigen::VectorXd& prediction) {
-    const Eigen::ArrayXd share = form.departure.array() / complex_moduli(data.observations, prediction).max(1e-300);
-    Follows follows{.kind = form.kind, .largest = mean_of_largest(share)};
-    if (form.kind.axis == Axis::sample) {
-        std::tie(follows.sample, follows.change) = most_apart(data, share);
-        return follows;
-    }
-    const Coordinate along = coordinate_along(form.kind.axis);
-    if (along == Coordinate::none) {
-        follows.change = follows.largest;
-        return follows;
-    }
-    std::tie(follows.from, follows.to) = ends_of(data.observations, along);
-    follows.change = change_along(rank_along(data.observations, along), data.observations, share);
-    return follows;
 }
 
 double log_factor_of_readings(const Inference& inference, const Fit& base) {

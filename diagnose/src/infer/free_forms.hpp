@@ -25,10 +25,6 @@ struct FreeForm {
 /// The coordinate that an axis is; an age is a time. None of those that are no coordinate of a row.
 Coordinate coordinate_along(Axis axis);
 
-/// States how large a departure of this form is, and the ends of its axis.
-/// @param prediction of the base model, of every number.
-Follows followed_by(const FreeForm& form, const DataSet& data, const Eigen::VectorXd& prediction);
-
 /// Finds the free forms of all links along all axes that these data vary.
 std::vector<FreeForm> free_forms(const Inference& inference, const Fit& base);
 
