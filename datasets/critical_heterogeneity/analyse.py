@@ -224,6 +224,12 @@ def main():
         _, share, error = collapse(chosen, column(chosen, "generator"))
         print(f"  {name}: {100 * share:.0f} %, {error:.3f} MPa, {len(chosen)} structures")
     print_sizes([row for row in rows if row["set"] == "sizes"], tuned)
+    print("\nstructures of 8000 particles, as the paper has them: beside that line, and by themselves")
+    large = [row for row in rows if row["set"].endswith("_8000")]
+    print_sizes(large, tuned)
+    print_triangle_price(large)
+    print_left(large)
+    print("\nthe law of phi = 0.4 at other volume fractions")
     print_fractions(rows, tuned)
     print("\nwhat the published structures would need")
     print_published(tuned)

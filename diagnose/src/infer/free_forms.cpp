@@ -51,7 +51,7 @@ double geometric_mean(const Eigen::VectorXd& values) {
     return count > 0 ? std::exp(sum / count) : 1;
 }
 
-/// Of the tool between plates or under a cone [rad]; of another tool what is in proportion to it.
+/// The angle of the tool between plates or under a cone [rad]; another tool gives what is in proportion to it.
 double angle_of(const Observation& one) {
     if (is_known(one.cone_angle)) {
         return one.strain * one.cone_angle;
@@ -97,7 +97,7 @@ public:
         return std::move(found_);
     }
 
-    Directions readings() && {
+    Directions readings() const {
         Directions all = along_reading(rank_of_angle());
         append(along_reading(rank_of_torque()), all);
         return all;
@@ -115,7 +115,7 @@ private:
 
     bool goes_along(Coordinate coordinate) const { return rank_along(data_.observations, coordinate).maxCoeff() > 0; }
 
-    /// Of G', of G'' or of both apart. @param since_first from nothing in the earliest row on.
+    /// A departure of G', of G'' or of both apart. @param since_first from nothing in the earliest row on.
     Directions along(const Eigen::VectorXd& scale, const std::vector<Eigen::VectorXd>& ranks, double length,
                      bool since_first = false) const {
         Directions all;

@@ -111,5 +111,22 @@ TEST(FreeForms, TwoPlatesTellAReadingOfTheTorqueFromTheMaterial) {
               (Kind{Link::material, Axis::strain}));
 }
 
+/// Samples at one strain each, those under the wider plate a tenth stiffer: they come with other torques, but also from another
+/// batch.
+TEST(FreeForms, TablesOfOneStrainEachAreNoReadingOfTheTorque) {
+    Experiment experiment;
+    experiment.material.kind = MaterialKind::smooth;
+    experiment.instrument = {.geometry = Geometry::plate_plate, .plate_radius = 0.0125, .gap = 1e-3};
+    for (const auto& [sample, radius] : {std::pair{"A", 0.0125}, {"B", 0.0125}, {"C", 0.025}, {"D", 0.025}}) {
+        Measurement table = run_between_plates(sample, 1e-3, radius > 0.02 ? 1.1 : 1, false);
+        table.columns[4].values.assign(6, radius);
+        table.columns.push_back({"strain", "1", std::vector<double>(6, sample[0] == 'A' ? 0.9e-3 : 1e-3)});
+        experiment.measurements.push_back(table);
+    }
+    const Kind found = best_form_of(experiment);
+    EXPECT_EQ(found.axis, Axis::radius);
+    EXPECT_EQ(found.link, Link::geometry);
+}
+
 }  // namespace
 }  // namespace coagula::diagnose
