@@ -123,9 +123,7 @@ TEST(FreeForms, TablesOfOneStrainEachAreNoReadingOfTheTorque) {
         table.columns.push_back({"strain", "1", std::vector<double>(6, sample[0] == 'A' ? 0.9e-3 : 1e-3)});
         experiment.measurements.push_back(table);
     }
-    const Kind found = best_form_of(experiment);
-    EXPECT_EQ(found.axis, Axis::radius);
-    EXPECT_EQ(found.link, Link::geometry);
+    EXPECT_EQ(best_form_of(experiment).axis, Axis::radius);
 }
 
 }  // namespace
