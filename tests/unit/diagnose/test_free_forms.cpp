@@ -111,16 +111,18 @@ TEST(FreeForms, TwoPlatesTellAReadingOfTheTorqueFromTheMaterial) {
               (Kind{Link::material, Axis::strain}));
 }
 
-/// Samples at one strain each, those under the wider plate a tenth stiffer: they come with other torques, but also from another
-/// batch.
+/// Tables at one strain each: samples under the wider plate are a tenth stiffer, an oil is not. They come with other torques, but
+/// also from another batch.
 TEST(FreeForms, TablesOfOneStrainEachAreNoReadingOfTheTorque) {
     Experiment experiment;
     experiment.material.kind = MaterialKind::smooth;
     experiment.instrument = {.geometry = Geometry::plate_plate, .plate_radius = 0.0125, .gap = 1e-3};
-    for (const auto& [sample, radius] : {std::pair{"A", 0.0125}, {"B", 0.0125}, {"C", 0.025}, {"D", 0.025}}) {
-        Measurement table = run_between_plates(sample, 1e-3, radius > 0.02 ? 1.1 : 1, false);
-        table.columns[4].values.assign(6, radius);
-        table.columns.push_back({"strain", "1", std::vector<double>(6, sample[0] == 'A' ? 0.9e-3 : 1e-3)});
+    for (const char* sample : {"A", "B", "C", "D", "o", "p"}) {
+        const bool oil = sample[0] >= 'o';
+        const bool wide = sample[0] == 'C' || sample[0] == 'D' || sample[0] == 'p';
+        Measurement table = run_between_plates(sample, 1e-3, wide && !oil ? 1.1 : 1, oil);
+        table.columns[4].values.assign(6, wide ? 0.025 : 0.0125);
+        table.columns.push_back({"strain", "1", std::vector<double>(6, oil ? 0.02 : 1e-3)});
         experiment.measurements.push_back(table);
     }
     EXPECT_EQ(best_form_of(experiment).axis, Axis::radius);
