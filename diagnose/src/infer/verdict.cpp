@@ -25,6 +25,7 @@ constexpr double about_as_well = 0.9;  ///< of errors on held-out rows
 constexpr double a_row_less = 6;       ///< logarithms of the likelihood that all rows but the strongest have to give
 constexpr double small_share = 0.1;    ///< of the base model's misfit that a named cause may leave
 constexpr double widest = 0.75;        ///< 90 % interval of a parameter over that of its prior
+constexpr Kind softening_or_stiffening{Link::material, Axis::strain};
 
 bool holds(const std::vector<Condition>& conditions, const char* name) {
     return std::any_of(conditions.begin(), conditions.end(), [&](const Condition& one) { return one.name == name && one.holds; });
@@ -193,12 +194,11 @@ double best_along_other_axes(const std::vector<FreeForm>& forms, Axis own) {
 /// How much more the free form of a softer or stiffer material explains than an instrument that reads torque or angle not in
 /// proportion, in logarithms; NaN where no cause is such a material.
 double over_readings(const Comparison& comparison, const Inference& inference) {
-    constexpr Kind along_strain{Link::material, Axis::strain};
     const Hypothesis& causes = comparison.all[comparison.winner].fit.hypothesis;
     const auto form = std::find_if(comparison.forms.begin(), comparison.forms.end(),
-                                   [&](const FreeForm& one) { return one.kind == along_strain; });
+                                   [&](const FreeForm& one) { return one.kind == softening_or_stiffening; });
     const bool concerns =
-        std::any_of(causes.begin(), causes.end(), [&](const Mechanism* one) { return one->kind == along_strain; });
+        std::any_of(causes.begin(), causes.end(), [&](const Mechanism* one) { return one->kind == softening_or_stiffening; });
     return concerns && form != comparison.forms.end()
                ? form->log_factor - log_factor_of_readings(inference, comparison.all.front().fit)
                : unset;
@@ -297,7 +297,9 @@ void judge(const Comparison& comparison, const Inference& inference, const Hypot
     diagnosis.conditions = conditions_of(comparison, inference, priors, options, diagnosis.gain);
     diagnosis.kinds = kinds_of(comparison, inference, fits(diagnosis.conditions));
     diagnosis.follows = follows_of(diagnosis.kinds, comparison, inference);
-    diagnosis.follows.link_is_told = is_separated(diagnosis.follows.kind, inference.forward().experiment());
+    const Kind followed = diagnosis.follows.kind;
+    diagnosis.follows.link_is_told = is_separated(followed, inference.forward().experiment()) &&
+                                     (followed != softening_or_stiffening || holds(diagnosis.conditions, "beats-readings"));
     rank_causes(comparison, inference, priors, diagnosis);
     diagnosis.certain = common_causes(diagnosis.credible_set, possible);
     diagnosis.verdict = verdict_of(diagnosis);

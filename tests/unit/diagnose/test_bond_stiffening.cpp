@@ -111,9 +111,12 @@ TEST(BondStiffening, IsNotToldFromATorqueThatIsNotReadInProportion) {
     const Diagnosis small = of_taut_strands(0.15, 0.01);
     EXPECT_EQ(small.verdict, Verdict::tied);
     EXPECT_FALSE(beats_readings(small));
+    EXPECT_FALSE(small.follows.link_is_told);
     const std::vector<std::string> names = names_of(small.credible_set);
     EXPECT_NE(std::find(names.begin(), names.end(), "none of the catalogue"), names.end());
-    EXPECT_TRUE(beats_readings(of_taut_strands(0.04)));
+    const Diagnosis large = of_taut_strands(0.04);
+    EXPECT_TRUE(beats_readings(large));
+    EXPECT_TRUE(large.follows.link_is_told);
 }
 
 }  // namespace
