@@ -191,8 +191,8 @@ double best_along_other_axes(const std::vector<FreeForm>& forms, Axis own) {
     return best;
 }
 
-/// How much more the free form of a softer or stiffer material explains than an instrument that reads torque or angle not in
-/// proportion, in logarithms; NaN where no cause is such a material.
+/// The free form of a softer or stiffer material explains so many logarithms more than an instrument that reads torque or angle not
+/// in proportion; NaN where no cause is such a material.
 double over_readings(const Comparison& comparison, const Inference& inference) {
     const Hypothesis& causes = comparison.all[comparison.winner].fit.hypothesis;
     const auto form = std::find_if(comparison.forms.begin(), comparison.forms.end(),
