@@ -28,6 +28,7 @@ constexpr double early_growth = 0.5;              // of the void radius expected
 constexpr double settled_force = 2e-5;            // rms force on the structure particles that ends an increment early
 constexpr double trial_distance = 0.6;            // from the target coordination at which trials begin
 constexpr double fine_overlap = 0.004;            // rms overlap, over the diameter, at which the fine increments begin
+constexpr double pressed_overlap = 0.05;          // the same, at which trials begin however few contacts there are
 constexpr double largest_overlap = 0.09;          // the same, at which the target is given up
 constexpr double relaxed_overlap = 0.005;         // the same, that a relaxed packing may keep
 constexpr double largest_volume = 1.5;            // of all spheres over that of the box, at which the target is given up
@@ -105,16 +106,24 @@ public:
             settle(system);
             const StructureContacts contacts = measure(system, structure_, options_.contact_tolerance);
             note_ = "coordination " + short_text(contacts.coordination);
-            const bool near_target = contacts.coordination > options_.target_coordination - trial_distance;
+            const bool near_target =
+                contacts.coordination > options_.target_coordination - trial_distance || contacts.overlap_rms > pressed_overlap;
             if (near_target && increments_ >= next_trial_) {
                 VoidExpansion trial = describe(relax_without_voids(system));
-                if (trial.coordination >= options_.target_coordination && trial.overlap_rms < relaxed_overlap) {
+                if (is_found(trial)) {
                     return trial;
                 }
                 const double missing = std::max(0.0, options_.target_coordination - trial.coordination);
                 next_trial_ = increments_ + std::max<Index>(1, static_cast<Index>(missing / fastest_rise));
             }
-            give_up_if_hopeless(system, contacts);
+            const bool crushed = contacts.overlap_rms > largest_overlap;
+            if (crushed || solid_volume_ + void_volume() > largest_volume * cell_.volume()) {
+                VoidExpansion last = describe(relax_without_voids(system));
+                if (is_found(last)) {
+                    return last;
+                }
+                throw out_of_reach(last, crushed ? "the overlap passes 9 % of the diameter" : "the voids fill the box");
+            }
             growth = near_target || contacts.overlap_rms > fine_overlap ? fine_increment : increment;
         }
     }
@@ -222,17 +231,20 @@ private:
         return 4 * std::numbers::pi / 3 * static_cast<double>(options_.voids) * std::pow(void_radius(), 3);
     }
 
-    void give_up_if_hopeless(const dem::ParticleSystem& system, const StructureContacts& contacts) const {
-        const bool crushed = contacts.overlap_rms > largest_overlap;
-        if (crushed || solid_volume_ + void_volume() > largest_volume * cell_.volume()) {
-            throw OutOfReach(
-                "the void expansion cannot reach a coordination of " + to_text(options_.target_coordination) + " with " +
-                std::to_string(options_.voids) + " voids among " + std::to_string(structure_) + " particles at volume fraction " +
-                to_text(options_.volume_fraction) + ": the packing comes to " +
-                short_text(coordination_of(relax_without_voids(system))) + " where " +
-                (crushed ? "the overlap passes 9 % of the diameter" : "the voids fill the box") +
-                "; ask for a coordination below that, a higher volume fraction or other numbers of particles and voids");
-        }
+    bool is_found(const VoidExpansion& trial) const {
+        return trial.coordination >= options_.target_coordination && trial.overlap_rms < relaxed_overlap;
+    }
+
+    OutOfReach out_of_reach(const VoidExpansion& last, const std::string& where) const {
+        const bool overlaps = last.coordination >= options_.target_coordination;
+        return OutOfReach(
+            "the void expansion cannot reach a coordination of " + to_text(options_.target_coordination) + " with " +
+            std::to_string(options_.voids) + " voids among " + std::to_string(structure_) + " particles at volume fraction " +
+            to_text(options_.volume_fraction) + ": the packing comes to " + short_text(last.coordination) + " where " + where +
+            (overlaps ? ", but without the voids its particles still overlap by " + short_text(100 * last.overlap_rms) +
+                            " %, where " + short_text(100 * relaxed_overlap) + " % is allowed; ask for a lower coordination"
+                      : "; ask for a coordination below that") +
+            ", a higher volume fraction or other numbers of particles and voids");
     }
 
     /// The result, in metres.

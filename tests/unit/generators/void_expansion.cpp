@@ -106,6 +106,24 @@ TEST(VoidExpansion, SaysThatACoordinationCannotBeReached) {
     }
 }
 
+TEST(VoidExpansion, GivesUpOnlyWherePackingsFallShortOfTheTarget) {
+    VoidExpansionOptions options = small(100, 300);
+    options.target_coordination = 4.7;
+    int found = 0;
+    for (options.seed = 1; options.seed <= 10; ++options.seed) {
+        try {
+            expect_sound(expand_voids(options), options);
+            ++found;
+        } catch (const InputError& error) {
+            const std::string sentence = error.what();
+            const std::string before = "the packing comes to ";
+            const double reached = std::stod(sentence.substr(sentence.find(before) + before.size()));
+            EXPECT_TRUE(reached < 4.7 || sentence.find("still overlap by") != std::string::npos) << sentence;
+        }
+    }
+    EXPECT_GT(found, 0);
+}
+
 TEST(VoidExpansion, SaysThatThePackingIsTooDenseForTheCoordination) {
     VoidExpansionOptions options = small(300, 100, 0.62);
     options.target_coordination = 1.0;
