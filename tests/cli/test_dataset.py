@@ -290,6 +290,19 @@ class Runs(ProgramTest):
         self.assertGreater(found["bytes"], 1e4)
         self.assertEqual(os.listdir(self.folder), ["sweep.toml"])
 
+    def test_plan_where_some_structures_cannot_be_made(self):
+        sweep = ('[[generate]]\nverb = "vem"\nparticles = 100\nvolume-fraction = 0.2\nradius = "1um"\n'
+                 'voids = [{}]\ntarget-coordination = 4.5\nreplicates = 2\n')
+        self.write("some.toml", sweep.format("10, 500"))
+        self.write("none.toml", sweep.format("500"))
+        found = self.succeed_json("dataset", "plan", "some.toml")
+        self.assertEqual(found["structures"], 4)
+        self.assertGreater(found["bytes"], 1e4)
+        self.assertIn("2 of 4 structures", found["notes"][0])
+        self.assertIn("--voids 500", found["notes"][0])
+        self.assertEqual(self.succeed_json("dataset", "run", "some.toml", "-o", "some.h5")["failed"], 2)
+        self.fail_with(2, "dataset", "plan", "none.toml", says="cannot reach a coordination of 4.5")
+
     def test_plan_runs_a_trajectory_once(self):
         sweep = ('[[generate]]\nverb = "brownian"\nparticles = 100\nvolume-fraction = 0.4\nradius = "0.25um"\n'
                  'surface-potential = "0mV"\nsample-interval = "0.02ms"\nstop-coordination = [{}]\n')

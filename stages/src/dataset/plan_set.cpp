@@ -50,6 +50,7 @@ struct Cost {
     double generating = 0;  ///< [s]
     double stages = 0;      ///< measuring and shearing [s]
     double bytes = 0;       ///< in the set
+    std::string failure;    ///< why a structure could not be made, if so
 };
 
 /// Computes one structure on one processor and removes it again.
@@ -65,14 +66,15 @@ Cost measured_cost(const SetRow& row, const SetRun& run) {
     const double all = clock.seconds();
     omp_set_num_threads(threads);
     const std::optional<SetRecord> record = parts.record(row.id);
+    std::string failure;
     if (!record || !record->done) {
-        throw InputError("the structure " + small.generate.call() + " with " + std::to_string(small.generate.count("particles")) +
-                         " particles cannot be made: " + (record ? record->message : "nothing came of it"));
+        failure = "the structure " + small.generate.call() + " with " + std::to_string(small.generate.count("particles")) +
+                  " particles cannot be made: " + (record ? record->message : "nothing came of it");
     }
     std::error_code missing;
     const auto bytes = fs::file_size(parts.structure(row.id), missing);
     const double particles = particles_of(small);
-    return {generating / particles, (all - generating) / particles, missing ? 0 : static_cast<double>(bytes) / particles};
+    return {generating / particles, (all - generating) / particles, missing ? 0 : static_cast<double>(bytes) / particles, failure};
 }
 
 /// The last row of every trajectory of each generator.
@@ -91,23 +93,41 @@ std::map<std::string, std::vector<const SetRow*>> ends_of_trajectories(const Swe
     return of_generators;
 }
 
-/// The mean cost of a particle by each generator, of a few structures that are spread over the sweep.
-std::map<std::string, Cost> mean_costs(const Sweep& sweep, const SetRun& run, const Progress& progress) {
-    std::map<std::string, Cost> costs;
+/// What a few structures cost that are spread over the sweep.
+struct Calibration {
+    std::map<std::string, Cost> costs;  ///< the mean cost of a particle by each generator
+    std::size_t structures = 0;
+    std::vector<std::string> failures;
+};
+
+/// A structure that cannot be made costs time, and stops a run as little as it stops this; only where none can be made is the first
+/// reason an error.
+Calibration calibrate(const Sweep& sweep, const SetRun& run, const Progress& progress) {
+    Calibration result;
     for (const auto& [verb, rows] : ends_of_trajectories(sweep)) {
         const std::size_t wanted = std::min(most_calibrations, rows.size());
         const Stopwatch clock;
         Cost sum;
         std::size_t count = 0;
-        for (; count < wanted && (count == 0 || clock.seconds() < calibration_seconds); ++count) {
+        std::size_t made = 0;
+        for (; count < wanted && (made == 0 || clock.seconds() < calibration_seconds); ++count) {
             progress.update("calibration", static_cast<double>(count) / static_cast<double>(wanted), verb);
             const Cost cost = measured_cost(*rows[count * rows.size() / wanted], run);
-            sum = {sum.generating + cost.generating, sum.stages + cost.stages, sum.bytes + cost.bytes};
+            sum = {sum.generating + cost.generating, sum.stages + cost.stages, sum.bytes + cost.bytes, {}};
+            if (cost.failure.empty()) {
+                ++made;
+            } else {
+                result.failures.push_back(cost.failure);
+            }
         }
-        const auto measured = static_cast<double>(count);
-        costs[verb] = {sum.generating / measured, sum.stages / measured, sum.bytes / measured};
+        if (made == 0) {
+            throw InputError(result.failures.back());
+        }
+        const auto tried = static_cast<double>(count);
+        result.costs[verb] = {sum.generating / tried, sum.stages / tried, sum.bytes / static_cast<double>(made), {}};
+        result.structures += count;
     }
-    return costs;
+    return result;
 }
 
 }  // namespace
@@ -135,13 +155,13 @@ int jobs_of(const Sweep& sweep, const SetRun& run) {
 
 Printed plan_sweep(const Sweep& sweep, const SetRun& run, const Progress& progress) {
     const int jobs = jobs_of(sweep, run);
-    const std::map<std::string, Cost> costs = mean_costs(sweep, run, progress);
+    const Calibration calibration = calibrate(sweep, run, progress);
     std::set<std::string> generated;
     std::set<std::string> trajectories;
     double seconds = 0;
     double bytes = 0;
     for (const SetRow& row : sweep.rows) {
-        const Cost& cost = costs.at(row.generate.verb());
+        const Cost& cost = calibration.costs.at(row.generate.verb());
         const bool runs = trajectories.insert(row.trajectory).second;  // else it lies on the trajectory of another
         seconds += (cost.stages + (runs ? cost.generating : 0)) * particles_of(row);
         bytes += cost.bytes * particles_of(row);
@@ -149,25 +169,33 @@ Printed plan_sweep(const Sweep& sweep, const SetRun& run, const Progress& progre
     }
     const double on_jobs = seconds / jobs;
     const double memory = bytes_of_process(sweep) * jobs;
-    const Json json = {{"structures", sweep.rows.size()},
-                       {"generated", generated.size()},
-                       {"jobs", jobs},
-                       {"processor_seconds", seconds},
-                       {"seconds", on_jobs},
-                       {"memory", memory},
-                       {"bytes", bytes}};
+    Json json = {{"structures", sweep.rows.size()},
+                 {"generated", generated.size()},
+                 {"jobs", jobs},
+                 {"processor_seconds", seconds},
+                 {"seconds", on_jobs},
+                 {"memory", memory},
+                 {"bytes", bytes}};
     const auto duration = [](double time) {
         return time < 120    ? with_unit(std::round(time), "s")
                : time < 7200 ? to_text(std::round(time / 60)) + " min"
                              : to_text(std::round(time / 360) / 10) + " h";
     };
     const auto rounded = [](double size) { return to_text(std::round(size / 1e6)) + " MB"; };
-    return {json,
-            {{"structures", std::to_string(sweep.rows.size()) + ", of " + std::to_string(generated.size()) + " generated packings"},
-             {"time", "about " + duration(on_jobs) + " with " + std::to_string(jobs) + (jobs == 1 ? " job" : " jobs") + ", " +
-                          duration(seconds) + " of processor time"},
-             {"memory", "about " + rounded(memory)},
-             {"size of the set", "about " + rounded(bytes)}}};
+    Table table = {
+        {"structures", std::to_string(sweep.rows.size()) + ", of " + std::to_string(generated.size()) + " generated packings"},
+        {"time", "about " + duration(on_jobs) + " with " + std::to_string(jobs) + (jobs == 1 ? " job" : " jobs") + ", " +
+                     duration(seconds) + " of processor time"},
+        {"memory", "about " + rounded(memory)},
+        {"size of the set", "about " + rounded(bytes)}};
+    json["notes"] = Json::array();
+    if (!calibration.failures.empty()) {
+        const std::string note = std::to_string(calibration.failures.size()) + " of " + std::to_string(calibration.structures) +
+                                 " structures that were tried cannot be made; the first is this: " + calibration.failures.front();
+        json["notes"].push_back(note);
+        table.emplace_back("note", note);
+    }
+    return {json, table};
 }
 
 Verb dataset_plan_verb() {
