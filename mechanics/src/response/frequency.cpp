@@ -28,7 +28,6 @@ constexpr int blas_threads = 2;               // fixed: the bits of a factor dep
 constexpr int most_iterations = 60;           // a good shift needs fewer than ten
 constexpr int most_borrowed_iterations = 18;  // with the factor of another frequency: more would cost as much as a new one
 constexpr double largest_shift = 1e-5;
-constexpr double rounding_of_loads = 1e-13;
 
 void check(const Packing& packing, const ContactNetwork& bonds, std::span<const double> frequencies,
            const FrequencyOptions& options) {
@@ -109,7 +108,7 @@ private:
 
     ComplexSolution iterate(const ComplexBlocks& matrix, const Ratios& ratios) const {
         return conjugate_orthogonal_gradients([&](const ComplexLoads& x, ComplexLoads& y) { network_.multiply(matrix, x, y); },
-                                              network_.loads(ratios), rounding_of_loads * network_.load_scale(),
+                                              network_.loads(ratios), network_.load_scale(),
                                               [&](const ComplexLoads& r, ComplexLoads& z) { factor_->solve(r, z); },
                                               options_.tolerance, most_iterations);
     }

@@ -14,6 +14,12 @@
 
 namespace coagula::mechanics {
 
+/// Symmetry cancels the forces of a load. What is left of them, over their norm before, is a rounding error below this.
+inline constexpr double rounding_of_loads = 1e-13;
+/// Residuals are relative to a load of at least this. Where symmetry cancels a load down to the digits of a file, its sum, which no
+/// stiffness resists, is a rounding error that counts beside the rest.
+inline constexpr double least_load = 1e-5;
+
 template <class Value>
 using SixColumns = Eigen::Matrix<Value, Eigen::Dynamic, 6, Eigen::RowMajor>;
 template <class Value>

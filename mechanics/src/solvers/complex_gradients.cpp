@@ -36,11 +36,11 @@ Row relative(const Row& value, const Row& reference, const Columns& loaded) {
 }  // namespace
 
 ComplexSolution conjugate_orthogonal_gradients(const std::function<void(const ComplexLoads&, ComplexLoads&)>& multiply,
-                                               const ComplexLoads& f, const Row& least_load,
+                                               const ComplexLoads& f, const Row& load_scale,
                                                const std::function<void(const ComplexLoads&, ComplexLoads&)>& precondition,
                                                double tolerance, int most_iterations) {
-    const Row size = norm(f);
-    const Columns loaded = size > least_load;
+    const Columns loaded = norm(f) > rounding_of_loads * load_scale;
+    const Row size = norm(f).max(least_load * load_scale);
     ComplexSolution solution;
     ComplexLoads& x = solution.motion;
     x = ComplexLoads::Zero(f.rows(), 6);

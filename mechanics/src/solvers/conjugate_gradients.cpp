@@ -104,8 +104,9 @@ Solution solve(const BlockMatrix& full, const Loads& f, const Eigen::Matrix<doub
                const std::function<void(const Loads&, Loads&)>& precondition, const StopRule& rule, const Progress& progress) {
     const Row affine = affine_energy.transpose().array();
     const Row plain_norm = dot(f, f).sqrt();
-    // Loads that symmetry cancels down to rounding errors are no loads.
-    const Row norm = (plain_norm > EnergyError::rounding * affine.sqrt()).select(plain_norm, 0.0);
+    // Loads that symmetry cancels down to rounding errors are no loads. Where it cancels them down to the digits of a file, their
+    // sum, which no stiffness resists, is a rounding error that counts beside the rest.
+    const Row norm = (plain_norm > EnergyError::rounding * affine.sqrt()).select(plain_norm.max(least_load * affine.sqrt()), 0.0);
     Columns open = norm > 0;
     Solution solution;
     Loads& x = solution.motion;

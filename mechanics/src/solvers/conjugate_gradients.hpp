@@ -13,8 +13,9 @@ namespace coagula::mechanics {
 /// When to stop. A column ends as soon as it meets either rule: iterating on would only feed rounding errors into the modes
 /// without stiffness, which the preconditioner amplifies.
 struct StopRule {
-    double residual = 1e-10;  ///< |f - K u| / |f|
-    double energy = 0;        ///< estimated error of the energy, relative to the energy that is left; 0: not used
+    double residual =
+        1e-10;          ///< |f - K u| / |f|; of a load that hardly any force is left of, over 1e-5 of the root of the affine energy
+    double energy = 0;  ///< estimated error of the energy, relative to the energy that is left; 0: not used
     int most_iterations = 200;
 };
 

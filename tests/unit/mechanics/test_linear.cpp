@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <coagula/mechanics/linear.hpp>
 
+#include <coagula/mechanics/frequency.hpp>
+
 #include "networks.hpp"
 #include "solvers/load_bearing.hpp"
 #include "solvers/stiffness.hpp"
+#include "support/lattices.hpp"
 
 #include <coagula/generators/void_expansion.hpp>
 
@@ -11,6 +14,9 @@
 #include <Eigen/Dense>
 
 #include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
 
 namespace coagula::mechanics {
 namespace {
@@ -155,6 +161,21 @@ TEST(Linear, NetworkThatCarriesNothingHasModulusZero) {
     EXPECT_LT(island.rattlers, 8);
     EXPECT_LT(island.elastic_tensor.norm(), 1e-9 * island.affine_tensor.norm());
     EXPECT_FALSE(island.elastic_tensor.hasNaN());
+}
+
+/// Symmetry cancels the loads of a crystal, and what the digits of a file leave of them hardly sums up to zero.
+TEST(Linear, CrystalWithThePlacesOfAFile) {
+    const Packing exact = testing::make_lattice(testing::face_centred_cubic(), 4, 4, 4);
+    const double modulus = solve_linear(exact, find_contacts(exact, 0.01)).mean_shear_modulus();
+    for (int digits = 5; digits <= 14; ++digits) {
+        const double unit = std::pow(10.0, -digits) * exact.radii[0];
+        const Packing read{exact.cell, unit * (exact.positions / unit).array().round(), exact.radii};
+        const ContactNetwork bonds = find_contacts(read, 0.01);
+        const LinearResponse response = solve_linear(read, bonds);
+        EXPECT_NEAR(response.mean_shear_modulus() / modulus, 1, 10 * std::pow(10.0, -digits) + 1e-12) << digits << " digits";
+        const FrequencyPoint point = solve_frequency_sweep(read, bonds, {}, std::array{1.0}, {}).points.at(0);
+        EXPECT_LT((point.modulus.real() - response.elastic_tensor).norm(), 1e-9 * modulus) << digits << " digits";
+    }
 }
 
 /// 44 modes without stiffness and some with hardly any: conjugate gradients come near to the tolerance and then lose what they had.
