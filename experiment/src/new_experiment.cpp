@@ -199,6 +199,7 @@ private:
         text_ += (several ? "table = " + std::to_string(table.number) + "    " : "") + comment(name_of_table(table, what));
         text_ += "sample = " + quoted(sample) + "    # tables of one sample share its name\n";
         write_rows(table, what);
+        write_step(what);
         write_order(sample);
         write_units(what);
         const std::string known = list_of(understood(table));
@@ -222,8 +223,23 @@ private:
         }
         text_ += "rows = [" + std::to_string(what.first == 0 ? 1 : what.first) + ", " +
                  std::to_string(what.first == 0 ? table.rows() : what.last);
+        const bool one_rate = *what.kind == MeasurementKind::start_up || *what.kind == MeasurementKind::steady_shear;
         text_ += thin ? ", " + std::to_string(every_) + "]    # every so many: a diagnosis takes 3000 numbers at most\n"
-                      : "]    # one of the sweeps that the table holds\n";
+                      : std::string("]    # one of the ") + (one_rate ? "rates" : "sweeps") + " that the table holds\n";
+    }
+
+    void write_step(const RecognisedTable& what) {
+        if (!what.step) {
+            return;
+        }
+        if (what.step->rate_before != 0) {
+            text_ += "rate_before = " + quoted(with_unit(what.step->rate_before, "1/s")) +
+                     "\nstress_before = " + quoted(with_unit(what.step->stress_before, "Pa")) +
+                     "    # the mean of the last rows at that rate; the flow must have been steady\n";
+        }
+        if (what.step->time_zero != 0) {
+            text_ += "time_zero = " + quoted(with_unit(what.step->time_zero, "s")) + "    # the last row at the rate before\n";
+        }
     }
 
     void write_order(const std::string& sample) {

@@ -8,6 +8,9 @@
 #include <coagula/diagnose/tool_constants.hpp>
 #include <coagula/experiment/export_metadata.hpp>
 
+#include "rate_steps.hpp"
+#include "table_parts.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,7 +27,7 @@ using diagnose::MeasurementKind;
 constexpr double varies_from = 1.2;      // largest over smallest value; set points that an instrument holds vary less
 constexpr double ramp_from = 5;          // K
 constexpr double gap_series_from = 1.5;  // a gap that follows the sample varies less
-constexpr std::size_t fewest_rows = 5;   // of one of several sweeps in a table
+constexpr std::size_t fewest_rows = 5;   // that tell whether a sample gives way, or what it does at a rate
 
 /// The numbers of a column in rows that have a storage modulus, or in all rows where none has.
 std::vector<double> readable(const Measurement& table, std::string_view name) {
@@ -280,69 +283,68 @@ RecognisedTable as_one(const io::PlainTable& table, const diagnose::Instrument& 
     }
 }
 
-using RowRange = std::pair<std::size_t, std::size_t>;  ///< first and last row, counted from 0
+/// Rows of a table that follow a step of the rate.
+RecognisedTable as_step(const io::PlainTable& rows, const RateStep& step, const diagnose::Instrument& instrument) {
+    RecognisedTable recognised{MeasurementKind::start_up, "shear_rate steps from " + with_unit(step.rate_before, "1/s") + " to " +
+                                                              with_unit(step.rate, "1/s")};
+    recognised.rules = assumed_units(rows);
+    recognised.step = step;
+    const std::string label = "table " + std::to_string(rows.number);
+    const Measurement measurement = start_up_of(to_measurement(rows, MeasurementKind::start_up, label, recognised.rules), step);
+    if (const std::string problem = problem_of(measurement, instrument); !problem.empty()) {
+        recognised.kind.reset();
+        recognised.reason += ", but " + problem;
+    }
+    return recognised;
+}
 
-/// Where a column runs in one direction.
-std::vector<RowRange> runs_of(const std::vector<double>& values) {
-    std::vector<RowRange> runs;
-    double last = std::numeric_limits<double>::quiet_NaN();
-    double direction = 0;
-    for (std::size_t row = 0; row < values.size(); ++row) {
-        const double step = values[row] - last;
-        const bool goes_on = std::isnan(step) || (step != 0 && (direction == 0 || step * direction > 0));
-        if (runs.empty() || !goes_on) {
-            runs.emplace_back(row, row);
-            direction = 0;
-        } else {
-            runs.back().second = row;
-            direction = std::isnan(step) ? direction : step;
+/// The plateaus of the rate, each as what it is.
+std::vector<RecognisedTable> steps_in(const io::PlainTable& table, const diagnose::Instrument& instrument) {
+    if (!table.has_headings) {
+        return {};
+    }
+    std::vector<RecognisedTable> parts;
+    try {
+        const Measurement whole = to_measurement(table, MeasurementKind::start_up, "table", assumed_units(table));
+        for (const RatePlateau& plateau : has(whole, "storage_modulus") ? std::vector<RatePlateau>{} : rate_plateaus(whole)) {
+            if (!plateau.step && plateau.last + 1 - plateau.first < fewest_rows) {
+                continue;  // it shows the rate before the first step
+            }
+            const io::PlainTable rows = part_of(table, {plateau.first, plateau.last});
+            parts.push_back(plateau.step ? as_step(rows, *plateau.step, instrument) : as_one(rows, instrument));
+            parts.back().first = plateau.first + 1;
+            parts.back().last = plateau.last + 1;
         }
-        last = std::isnan(values[row]) ? last : values[row];
+    } catch (const InputError&) {  // as_one has said why
+        parts.clear();
     }
-    return runs;
+    return parts;
 }
 
-/// The sweeps that a table holds one below the other, by the axis that turns back least often; nothing where hardly any row belongs
-/// to one.
-std::vector<RowRange> sweeps_in(const io::PlainTable& table) {
-    std::vector<RowRange> fewest;
-    for (const io::PlainColumn& column : table.columns) {
-        if (column.quantity == "angular_frequency" || column.quantity == "frequency" || column.quantity == "strain") {
-            std::vector<RowRange> runs = runs_of(column.values);
-            fewest = fewest.empty() || runs.size() < fewest.size() ? std::move(runs) : fewest;
-        }
-    }
-    std::size_t rows = 0;
-    for (const auto& [first, last] : fewest) {
-        rows += last - first + 1 >= fewest_rows ? last - first + 1 : 0;
-    }
-    return fewest.size() > 1 && 5 * rows >= 4 * table.rows() ? fewest : std::vector<RowRange>{};
-}
-
-io::PlainTable sweep_of(const io::PlainTable& table, const RowRange& rows) {
-    io::PlainTable part = table;
-    for (io::PlainColumn& column : part.columns) {
-        column.values = {column.values.begin() + static_cast<std::ptrdiff_t>(rows.first),
-                         column.values.begin() + static_cast<std::ptrdiff_t>(rows.second) + 1};
-    }
-    std::erase_if(part.unreadable, [&](const io::UnreadableCell& cell) { return cell.row < rows.first || cell.row > rows.second; });
-    for (io::UnreadableCell& cell : part.unreadable) {
-        cell.row -= rows.first;
-    }
-    return part;
-}
-
-/// The whole table, or the sweeps in it where it cannot be used as a whole.
+/// The whole table, or the sweeps or steps in it where it cannot be used as a whole.
 std::vector<RecognisedTable> recognise_table(const io::PlainTable& table, const diagnose::Instrument& instrument) {
     RecognisedTable whole = as_one(table, instrument);
-    std::vector<RecognisedTable> parts;
-    for (const RowRange& rows : whole.kind ? std::vector<RowRange>{} : sweeps_in(table)) {
-        parts.push_back(as_one(sweep_of(table, rows), instrument));
+    if (whole.kind) {
+        return {std::move(whole)};
+    }
+    const auto is_used = [](const RecognisedTable& part) { return part.kind.has_value(); };
+    std::vector<RecognisedTable> parts = steps_in(table, instrument);
+    if (std::any_of(parts.begin(), parts.end(), is_used)) {
+        return parts;
+    }
+    if (!parts.empty()) {
+        const auto shorter = [](const RecognisedTable& one, const RecognisedTable& other) {
+            return one.last - one.first < other.last - other.first;
+        };
+        whole.reason = std::max_element(parts.begin(), parts.end(), shorter)->reason;
+        parts.clear();
+    }
+    for (const RowRange& rows : sweeps_in(table)) {
+        parts.push_back(as_one(part_of(table, rows), instrument));
         parts.back().first = rows.first + 1;
         parts.back().last = rows.second + 1;
     }
-    const bool used = std::any_of(parts.begin(), parts.end(), [](const RecognisedTable& part) { return part.kind.has_value(); });
-    return used ? parts : std::vector<RecognisedTable>{std::move(whole)};
+    return std::any_of(parts.begin(), parts.end(), is_used) ? parts : std::vector<RecognisedTable>{std::move(whole)};
 }
 
 /// What the export says about it.

@@ -131,6 +131,14 @@ class Coordinates(ProgramTest):
         self.refuse(GOOD_CSV, "--length-unit", options=[*IMPORT, "--length-unit", "2V"])
         self.refuse(GOOD_CSV, ["--length-unit", "the edge of one"], options=[*IMPORT, "--length-unit", "px"])
 
+    def test_length_unit_beside_another(self):
+        self.refuse(GOOD_CSV, ["column x", "'um'", "--length-unit says 1 mm"], options=[*IMPORT, "--length-unit", "1mm"])
+        self.write("bad.csv", GOOD_CSV)
+        self.succeed("import", "bad.csv", *IMPORT, "--length-unit", "1um", "--force")
+        cell = "ITEM: UNITS\nsi\nITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n" + 3 * "0 6\n"
+        self.write("bad.dump", cell + "ITEM: ATOMS id x y z radius\n1 1 1 1 0.5\n")
+        self.fail_with(2, "import", "bad.dump", "--length-unit", "1um", "-o", "bad.h5", says=["bad.dump", "unit 'm'", "--length-unit says 1 um"])
+
     def test_columns_without_unit(self):
         self.refuse(GOOD_CSV.replace(" [um]", ""), "length-unit")
 

@@ -71,5 +71,28 @@ write_dump all custom {flip}.dump id type x y z radius modify format float %20.1
         self.assertAlmostEqual(moduli[1] / moduli[0], 1, delta=1e-6)
 
 
+class Planes(ProgramTest):
+    def layer(self, name, normal, box="15um", heights=(0.0,)):
+        """Square layers of 225 spheres of 1 um across, turned so that `normal` is across them."""
+        across = numpy.array(normal) / numpy.linalg.norm(normal)
+        first = numpy.cross(across, [1, 0, 0] if abs(across[0]) < 0.9 else [0, 1, 0])
+        first /= numpy.linalg.norm(first)
+        second = numpy.cross(across, first)
+        places = [i * first + j * second + height * across for height in heights for i in range(15) for j in range(15)]
+        self.write(name, "x [um],y [um],z [um]\n" + "".join(f"{x:.9f},{y:.9f},{z:.9f}\n" for x, y, z in places))
+        return ["import", name, "--radius", "0.5um", *(["--box", box, "--wrap"] if box else ["--open"]), "-o", f"{name}.h5", "--force"]
+
+    def test_two_dimensions_are_refused(self):
+        for normal in ((0, 0, 1), (1, 0, 0)):
+            for box in ("15um", ""):
+                self.fail_with(2, *self.layer("flat.csv", normal, box), says=["flat.csv", "225 centres lie in a plane", "two dimensions"])
+        self.fail_with(2, *self.layer("flat.csv", (1, 2, 3), ""), says="lie in a plane")
+
+    def test_crystals_one_layer_thick_are_none(self):
+        self.succeed(*self.layer("thick.csv", (0, 0, 1), heights=(0.0, 1.0)))
+        found = self.succeed_json(*self.layer("crystal.csv", (0, 0, 1), "15um,15um,1um"))
+        self.assertEqual(found["coordination"], 6)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -4,6 +4,7 @@
 import math
 import os
 import random
+import tomllib
 import unittest
 from pathlib import Path
 
@@ -214,6 +215,67 @@ class Exports(Tables):
         self.assertEqual((found["verdict"], found["credible_set"]), ("named", ["tool-inertia"]))
         inertia = found["causes"][0]["parameters"]["inertia"]
         self.assertTrue(20e-6 < inertia["low"] and inertia["high"] < 35e-6, inertia)  # of the instrument alone: 20.9 to 25
+
+
+class RatesOneBelowTheOther(Tables):
+    """One table with several shear rates, as an instrument writes steps of the rate."""
+
+    RATES = (1.0, 10.0, 2.0)  # 1/s
+    VISCOSITY, RELAXATION = 0.5, 0.3  # of a Maxwell fluid
+
+    def table(self, heading, row, clock_restarts=False):
+        noise = random.Random(1)
+        rows, stress = [], 0.0
+        for number, rate in enumerate(self.RATES):
+            steady = self.VISCOSITY * rate
+            for time in [0.02 * 1500 ** (k / 39) for k in range(40)]:
+                now = steady + (stress - steady) * math.exp(-time / self.RELAXATION)
+                measured = rate * (1 + 0.002 * noise.gauss(0, 1))
+                rows.append(row(time + (0 if clock_restarts else 30 * number), measured, now))
+            stress = steady
+        return "\n".join([heading, *(",".join(f"{value:.6g}" for value in values) for values in rows)]) + "\n"
+
+    def proposed(self, text):
+        self.write("t.csv", text)
+        self.succeed("diagnose", "new", "t.csv", "-o", "e.toml", "--force")
+        return tomllib.loads((self.folder / "e.toml").read_text()).get("measurement", [])
+
+    def number(self, text):
+        value, unit = text.split(" ")
+        return float(value) * {"m": 1e-3}.get(unit[0] if len(unit) > 3 or unit == "mPa" else "", 1)
+
+    def check_steps(self, tables, zeros):
+        self.assertEqual([table["kind"] for table in tables], ["start-up"] * 3)
+        self.assertEqual([table["rows"] for table in tables], [[1, 40], [41, 80], [81, 120]])
+        self.assertNotIn("rate_before", tables[0])
+        for table, rate, zero in zip(tables[1:], self.RATES, zeros):
+            self.assertAlmostEqual(self.number(table["rate_before"]) / rate, 1, delta=0.01)
+            self.assertAlmostEqual(self.number(table["stress_before"]) / (self.VISCOSITY * rate), 1, delta=0.01)
+            self.assertEqual(table.get("time_zero"), zero)
+        found = self.succeed_json("diagnose", "check", "e.toml")
+        self.assertEqual(len(found["measurements"]), 3)
+
+    def test_are_start_ups_from_the_rate_before(self):
+        tables = self.proposed(self.table("time [s],shear rate [1/s],shear stress [Pa]", lambda t, r, s: (t, r, s)))
+        self.check_steps(tables, ["30 s", "60 s"])
+        self.assertEqual(self.succeed_json("diagnose", "e.toml", "--bootstrap", 99, "-o", "out")["verdict"], "no-discrepancy")
+
+    def test_a_clock_that_restarts_and_a_viscosity(self):
+        text = self.table("time [s],shear rate [1/s],viscosity [Pa s]", lambda t, r, s: (t, r, s / r), clock_restarts=True)
+        self.check_steps(self.proposed(text), [None, None])
+
+    def test_a_ramp_has_no_rates_that_stay(self):
+        rates = [0.1 * 1.01**k for k in range(300)] + [0.1 * 1.01**k for k in range(300, 0, -1)]
+        text = "time [s],shear rate [1/s],shear stress [Pa]\n" + "".join(f"{k},{r:.6g},{0.5 * r:.6g}\n" for k, r in enumerate(rates))
+        self.write("t.csv", text)
+        self.fail_with(2, "diagnose", "new", "t.csv", says=["flow-curve", "wrong order"])
+
+    def test_blood_overshoots(self):
+        self.succeed("diagnose", "new", DATA / "blood_steps" / "Steps.xlsx", "-o", "e.toml")
+        text = (self.folder / "e.toml").read_text()
+        for rate in ("0.1014 1/s to 5.0154", "0.10092 1/s to 10.031", "0.10022 1/s to 20.062"):
+            self.assertIn(f"shear_rate steps from {rate} 1/s, but", text)
+        self.assertEqual(text.count("the stress overshoots by"), 4)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <coagula/common/readable.hpp>
 #include <coagula/common/spelling.hpp>
 #include <coagula/io/units.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <vector>
 
@@ -42,10 +45,20 @@ bool is_pixel(const std::string& unit) {
     return std::find(names.begin(), names.end(), lower_case(unit)) != names.end();
 }
 
+bool names_length(const CsvReader::Column& column) {
+    return !column.unit.empty() && !is_pixel(column.unit);
+}
+
 double divisor_of(const CsvReader& table, const CsvReader::Column& column, const std::optional<double>& default_unit) {
     ImportOptions unit;
-    unit.length_unit = default_unit;
-    return per_metre(table.file(), "column " + column.name, is_pixel(column.unit) ? "" : column.unit, unit);
+    if (!names_length(column)) {
+        unit.length_unit = default_unit;
+    }
+    return per_metre(table.file(), "column " + column.name, names_length(column) ? column.unit : "", unit);
+}
+
+std::optional<double> unit_of_axis(const ImportOptions& options, int axis) {
+    return options.axis_units ? std::optional((*options.axis_units)[axis]) : options.length_unit;
 }
 
 std::vector<ScaledColumn> find_centres(const CsvReader& table, const ImportOptions& options) {
@@ -57,8 +70,7 @@ std::vector<ScaledColumn> find_centres(const CsvReader& table, const ImportOptio
             table.file().fail("there is no column " + name + " among " + list_of(table.names()) +
                               "; the first line must be a header that names x, y and z, or give --columns " + name + "=HEADING");
         }
-        const std::optional<double> unit = options.axis_units ? std::optional((*options.axis_units)[axis]) : options.length_unit;
-        columns.push_back({*column, divisor_of(table, *column, unit)});
+        columns.push_back({*column, divisor_of(table, *column, unit_of_axis(options, axis))});
     }
     return columns;
 }
@@ -74,14 +86,31 @@ std::optional<ScaledColumn> find_radius(const CsvReader& table, const ImportOpti
         if (!column) {
             continue;
         }
-        const bool unitless = column->unit.empty() || is_pixel(column->unit);
-        if (unitless && options.axis_units && !options.length_unit) {
+        if (!names_length(*column) && options.axis_units && !options.length_unit) {
             table.file().fail("column " + column->name +
                               " names no unit, and the axes have different ones: give its unit as the fourth of --length-unit");
         }
         return ScaledColumn{*column, (is_radius ? 1 : 2) * divisor_of(table, *column, options.length_unit)};
     }
     return std::nullopt;
+}
+
+/// A unit beside headings that all name another.
+void refuse_ignored_unit(const CsvReader& table, const std::vector<ScaledColumn>& centres,
+                         const std::optional<ScaledColumn>& radius, const ImportOptions& options) {
+    const auto has_own = [](const ScaledColumn& scaled) { return names_length(scaled.column); };
+    if (!std::all_of(centres.begin(), centres.end(), has_own) || (radius && !has_own(*radius))) {
+        return;
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        const ScaledColumn& centre = centres[static_cast<std::size_t>(axis)];
+        const std::optional<double> unit = unit_of_axis(options, axis);
+        if (unit && std::abs(*unit * centre.divisor - 1) > 1e-9) {
+            table.file().fail("column " + centre.column.name + " has the unit '" + centre.column.unit +
+                              "', but --length-unit says " + with_unit(*unit, "m") +
+                              ": leave --length-unit out, or take the unit out of the heading");
+        }
+    }
 }
 
 /// The number of the frame of the present line.
@@ -126,6 +155,7 @@ std::vector<RawPacking> read_csv(LineReader& file, const ImportOptions& options)
     CsvReader table(file);
     const std::vector<ScaledColumn> centres = find_centres(table, options);
     const std::optional<ScaledColumn> radius = find_radius(table, options);
+    refuse_ignored_unit(table, centres, radius, options);
     const auto frame = find_column(table, "frame", {"frame"}, options);
     if (!frame && options.frame) {
         file.fail("there is no column frame to choose by --frame; name it by --columns frame=HEADING");

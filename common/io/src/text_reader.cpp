@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "text_reader.hpp"
 
+#include <coagula/common/readable.hpp>
 #include <coagula/io/input_file.hpp>
 #include <coagula/io/units.hpp>
 
@@ -137,11 +138,17 @@ double per_metre(const LineReader& file, const std::string& object, const std::s
         }
         return 1 / require_positive(*options.length_unit, "the length unit", "m");
     }
+    double factor = 0;
     try {
-        return unit_factor("m", unit);
+        factor = unit_factor("m", unit);
     } catch (const InputError&) {
         file.fail(object + " has the unit '" + unit + "', which is not a length");
     }
+    if (options.length_unit && std::abs(*options.length_unit * factor - 1) > 1e-9) {
+        file.fail(object + " has the unit '" + unit + "', but --length-unit says " + with_unit(*options.length_unit, "m") +
+                  ": leave --length-unit out, or take the unit out of the file");
+    }
+    return factor;
 }
 
 }  // namespace coagula::io

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <string_view>
 #include <utility>
@@ -41,11 +42,25 @@ void add_from_tool(Measurement& table, const Instrument& instrument, const char*
     table.columns.push_back(std::move(column));
 }
 
+/// The stress of viscosity and rate, where no column holds it.
+void add_stress_of_flow(Measurement& table) {
+    const Column* viscosity = find_column(table, "viscosity");
+    if (find_column(table, "stress") != nullptr || viscosity == nullptr) {
+        return;
+    }
+    const Column& rate = *find_column(table, "shear_rate");
+    Column stress{"stress", "Pa", {}};
+    std::transform(viscosity->values.begin(), viscosity->values.end(), rate.values.begin(), std::back_inserter(stress.values),
+                   std::multiplies<>());
+    table.columns.push_back(std::move(stress));
+}
+
 /// Takes the changes of rate and stress for the rate and the stress; without a column of the rate the flow has stopped.
 void take_from_rate(Measurement& table) {
     if (find_column(table, "shear_rate") == nullptr) {
         table.columns.push_back({"shear_rate", "1/s", std::vector<double>(table.rows(), 0.0)});
     }
+    add_stress_of_flow(table);
     for (Column& column : table.columns) {
         const bool rate = column.name == "shear_rate";
         if (rate || column.name == "stress") {

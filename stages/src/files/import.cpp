@@ -6,6 +6,8 @@
 #include <coagula/io/text_formats.hpp>
 #include <coagula/stages/files.hpp>
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -161,12 +163,36 @@ io::ImportOptions import_options(const Arguments& arguments) {
     return options;
 }
 
+/// Whether all centres lie in a plane in which the spheres do not meet their own images across it, as those of a crystal do that is
+/// one layer thick.
+bool is_flat(const Packing& packing) {
+    constexpr Index fewest = 10;  // spheres; a few may lie in a plane anywhere
+    if (packing.size() < fewest) {
+        return false;
+    }
+    const Eigen::Matrix3Xd places = packing.positions.colwise() - packing.positions.rowwise().mean();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(places * places.transpose());
+    const Eigen::RowVector3d normal = axes.eigenvectors().col(0).transpose();
+    const double thickness = (normal * places).cwiseAbs().maxCoeff();
+    const double radius = packing.radii.maxCoeff();
+    bool meets_images = false;
+    for (int edge = 0; edge < 3; ++edge) {
+        const double apart = std::abs(normal.dot(packing.cell.edges().col(edge).transpose()));
+        meets_images = meets_images || (packing.cell.is_periodic(edge) && apart > 0.5 * radius && apart < 3 * radius);
+    }
+    return thickness < 1e-3 * radius && !meets_images;
+}
+
 }  // namespace
 
 io::Structure import_structure(const Arguments& arguments) {
     const io::ImportOptions options = import_options(arguments);
     io::Structure structure = read_any_format(arguments, options);
     check(structure.packing, arguments.input());
+    if (is_flat(structure.packing)) {
+        throw InputError(arguments.input() + ": all " + std::to_string(structure.packing.size()) +
+                         " centres lie in a plane: the packing has two dimensions, but coagula treats packings in three");
+    }
     return structure;
 }
 

@@ -13,6 +13,14 @@
 
 namespace coagula::experiment {
 
+/// A step of the shear rate.
+struct RateStep {
+    double rate_before = 0;    ///< [1/s]; 0: from rest
+    double rate = 0;           ///< [1/s]
+    double stress_before = 0;  ///< steady, at the rate before [Pa]
+    double time_zero = 0;      ///< of the step, on the clock of the table [s]
+};
+
 /// What a table of an export is, or some rows of it.
 struct RecognisedTable {
     std::optional<diagnose::MeasurementKind> kind;  ///< none: nothing that a diagnosis could use
@@ -21,11 +29,12 @@ struct RecognisedTable {
     ColumnRules rules = {};                         ///< the units that are assumed where the table names none
     std::size_t first = 0;                          ///< row, counted from 1; 0: all rows are meant
     std::size_t last = 0;                           ///< row
+    std::optional<RateStep> step = {};              ///< that the rows follow
     bool yields = false;                            ///< the sample softens while the strain grows, or thins while it flows
 };
 
 /// An export and what its tables are, in their order. A table that is no waveform has one entry, or, where it holds several sweeps
-/// one below the other, one for each of them.
+/// or rates one below the other, one for each of them.
 struct RecognisedFile {
     io::MeasuredFile file;
     std::vector<RecognisedTable> tables;
