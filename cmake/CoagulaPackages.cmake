@@ -41,7 +41,7 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 math(EXPR coagula_next_minor "${Python_VERSION_MINOR} + 1")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
   "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${coagula_next_minor}), python3-numpy")
-set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot, python3-h5py")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The module coagula generates, measures, shears and diagnoses random
 sphere packings and colloidal gels, with numpy arrays in and out.")
 
@@ -72,6 +72,11 @@ endif()
 foreach(package component IN ZIP_LISTS coagula_packages coagula_components)
   install(FILES packaging/copyright "${coagula_changes}.gz" DESTINATION share/doc/${package} COMPONENT ${component})
 endforeach()
+
+# The manual and the examples, which help texts and messages name by their paths.
+install(DIRECTORY docs examples DESTINATION share/doc/coagula COMPONENT tools
+  PATTERN conf.py EXCLUDE PATTERN Doxyfile EXCLUDE PATTERN static EXCLUDE PATTERN __pycache__ EXCLUDE)
+install(FILES README.md DESTINATION share/doc/coagula COMPONENT tools)
 
 include(CPack)
 cpack_add_component_group(program)

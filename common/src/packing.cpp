@@ -25,7 +25,8 @@ std::string place_along(const Cell& cell, int axis, const Eigen::Vector3d& posit
         return std::string("its ") + "xyz"[axis] + " is " + to_text(position[axis]) + " m, the box goes from " + to_text(low) +
                " to " + to_text(low + cell.edges()(axis, axis)) + " m";
     }
-    return "it lies at " + to_text(cell.fraction(position)[axis]) + " of edge " + "abc"[axis] + ", the box goes from 0 to 1";
+    return "the centre lies at " + to_text(cell.fraction(position)[axis]) + " of edge " + "abc"[axis] +
+           ", the box goes from 0 to 1";
 }
 
 void check_one(const Packing& packing, Index particle, const std::string& name) {

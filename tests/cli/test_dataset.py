@@ -311,6 +311,11 @@ class Runs(ProgramTest):
         one, eleven = (self.succeed_json("dataset", "plan", name, "--jobs", 1)["seconds"] for name in ("one.toml", "ten.toml"))
         self.assertLess(eleven, 4 * one)  # they only lie on it
 
+    def test_a_set_is_no_structure(self):
+        self.run_set("set.h5")
+        for verb in ("info", "characterize", "shear"):
+            self.fail_with(2, verb, "set.h5", says=["set.h5", "is a data set of many structures", "dataset table"])
+
     def test_foreign_files(self):
         self.copy_of_packing("set.h5")
         self.fail_with(2, "dataset", "run", "sweep.toml", "-o", "set.h5", says=["set.h5", "no data set"])

@@ -23,6 +23,13 @@ class Frequency(ProgramTest):
     def sweep(self, *words):
         return self.succeed_json("shear", "packing.h5", "-o", "out.h5", "--force", *words)
 
+    def test_angular_frequencies(self):
+        one = self.sweep("--frequency", "1Hz,10Hz", "--model", "model.toml")
+        other = self.sweep("--frequency", f"{2 * math.pi!r}rad/s,{20 * math.pi!r} rad/s", "--model", "model.toml")
+        for found, wanted in zip(other["frequency"], one["frequency"]):
+            self.assertAlmostEqual(found / wanted, 1, delta=1e-12)
+        self.assertAlmostEqual(other["loss_modulus"]["mean"][1] / one["loss_modulus"]["mean"][1], 1, delta=1e-9)
+
     def test_keys_and_arrays(self):
         found = self.sweep("--frequency", "1Hz,10Hz,2kHz", "--model", "model.toml")
         self.assertEqual(found["method"], "frequency")

@@ -50,5 +50,24 @@ class SettingSamples(Tables):
             self.assertLess(posterior["wall-slip"], posterior["none of the catalogue"], seed)  # nor beside a remainder
 
 
+class Losses(Tables):
+    """A network without losses beside samples that have them at every frequency."""
+
+    def test_the_level_of_the_base_model_lies_among_the_data(self):
+        self.structure("known.h5", 1)
+        number = random.Random(5)
+        text = '[structures]\nfiles = ["known.h5"]\n\n' + PLATES
+        for sample, factor in (("A", 1.0), ("B", 1.12), ("C", 0.93)):
+            rows = []
+            for k in range(16):
+                omega = 0.1 * 10**(k / 5)
+                shown = factor * (150 + 30 * (1j * omega)**0.3) * (1 + 0.02 * number.gauss(0, 1)) * cmath.exp(0.005j * number.gauss(0, 1))
+                rows.append((omega, shown.real, shown.imag))
+            self.table(f"{sample}.csv", ("angular frequency [rad/s]", "storage_modulus [Pa]", "loss_modulus [Pa]"), rows)
+            text += f'\n[[measurement]]\nkind = "frequency-sweep"\nfile = "{sample}.csv"\nsample = "{sample}"\n'
+        effects = self.diagnosis(text)["sample_effects"]["base"]
+        self.assertLess(max(map(abs, effects.values())), 0.3, effects)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -61,7 +61,7 @@ std::string sentence_outside(const Cell& cell, int axis, const Eigen::Vector3d& 
         return std::string(1, "xyz"[axis]) + " is " + to_text(position[axis]) + " m, outside the periodic box from 0 to " +
                to_text(cell.edges()(axis, axis)) + " m";
     }
-    return "it lies at " + to_text(cell.fraction(position)[axis]) + " of edge " + "abc"[axis] +
+    return "the centre lies at " + to_text(cell.fraction(position)[axis]) + " of edge " + "abc"[axis] +
            ", outside the periodic box from 0 to 1";
 }
 

@@ -17,6 +17,7 @@ inline constexpr const char* bonds = "/connectivity/bonds";
 inline constexpr const char* branch_vectors = "/connectivity/branch_vectors";
 inline constexpr const char* view = "/VTKHDF";
 inline constexpr const char* provenance = "/provenance";
+inline constexpr const char* format_of_sets = "coagula data set";  ///< the attribute format of a data set
 
 /// MDAnalysis refuses metres, so the group /particles is in nanometres. Reading divides by the same number: then storing what was
 /// read gives the stored value again, bit for bit.

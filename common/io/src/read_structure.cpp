@@ -151,7 +151,8 @@ Structure take_structure(Unpacker& found, const std::string& path) {
         throw InputError(error.what());
     }
     if (const double fraction = volume_fraction(structure.packing); fraction > 1) {
-        throw InputError(path + ": " + group + " is overfull: its spheres take " + to_text(fraction) + " of the volume of the box");
+        throw InputError(path + ": " + group + " is overfull: its spheres take " + to_text(fraction) +
+                         " times the volume of the box");
     }
     return structure;
 }
@@ -159,6 +160,11 @@ Structure take_structure(Unpacker& found, const std::string& path) {
 }  // namespace
 
 std::string particles_group(const File& file) {
+    if (file.attribute("/", "format") == layout::format_of_sets) {
+        throw InputError(
+            file.path() +
+            " is a data set of many structures: coagula dataset table lists them, coagula report --structure ID shows one");
+    }
     if (!file.is_group(layout::metadata) || !file.is_group(layout::particles)) {
         file.fail(file.is_group(layout::metadata) ? layout::particles : layout::metadata, "is missing: this is not an H5MD file");
     }

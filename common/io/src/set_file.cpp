@@ -62,7 +62,7 @@ SetColumn read_column(const File& file, const std::string& name) {
 }
 
 bool has_index(const File& file) {
-    return file.is_group(index_group) && file.has(index_group + "/id") && file.attribute("/", "format") == "coagula data set";
+    return file.is_group(index_group) && file.has(index_group + "/id") && file.attribute("/", "format") == layout::format_of_sets;
 }
 
 void require_set(const File& file) {
@@ -139,7 +139,7 @@ std::string sum_of(const File& file, const std::string& group) {
 
 /// Card, sweep, index and structures.
 void fill(File& file, const SetHead& head, const std::vector<SetStructure>& structures) {
-    file.set_attribute("/", "format", std::string("coagula data set"));
+    file.set_attribute("/", "format", layout::format_of_sets);
     for (const auto& [name, text] : head.card) {
         file.set_attribute("/", name, text);
     }

@@ -86,23 +86,36 @@ double Inference::better_start(const Model& model, double before) const {
     return density(level) > density(before) ? level : before;
 }
 
-/// Where part of the rows lies far off, the density of the base model has several maxima along the stiffness: the highest one.
+/// Where part of the rows lies far off, the density of the base model has several maxima along the stiffness: the highest one. One
+/// at the ends of what log_prior_of_level() allows counts only where there is no other: the plateau ends there, and no number that
+/// was measured says so.
 /// @param density by the logarithm of the stiffness. @return place and value.
 std::pair<double, double> Inference::highest_maximum(const std::function<double(double)>& density) const {
     constexpr double step = 0.1;
-    constexpr int steps = 15;  // to either side
+    constexpr int steps = 15;       // to either side
+    constexpr double among = 0.75;  // the data, from their level: not at the ends
     constexpr int digits = 20;
-    double highest = -std::numeric_limits<double>::infinity();
-    double place = log_level_;
+    std::vector<double> places;
+    std::vector<double> values;
     for (int number = -steps; number <= steps; ++number) {
-        const double there = log_level_ + number * step;
-        const double value = density(there);
-        place = value > highest ? there : place;
-        highest = std::max(highest, value);
+        places.push_back(log_level_ + number * step);
+        values.push_back(density(places.back()));
     }
+    auto highest = static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
+    if (std::abs(places[highest] - log_level_) > among) {
+        double most = -std::numeric_limits<double>::infinity();
+        for (std::size_t k = 1; k + 1 < values.size(); ++k) {
+            const bool is_maximum = values[k] >= values[k - 1] && values[k] >= values[k + 1];
+            if (is_maximum && std::abs(places[k] - log_level_) <= among && values[k] > most) {
+                highest = k;
+                most = values[k];
+            }
+        }
+    }
+    const double place = places[highest];
     const auto misfit = [&](double there) { return -density(there); };
     const auto [top, least] = boost::math::tools::brent_find_minima(misfit, place - step, place + step, digits);
-    return -least > highest ? std::pair(top, -least) : std::pair(place, highest);
+    return -least > values[highest] ? std::pair(top, -least) : std::pair(place, values[highest]);
 }
 
 double Inference::density_of_free_level() const {

@@ -70,6 +70,24 @@ const Format& chosen_format(const Arguments& arguments) {
     return format_of(arguments.text("output"));
 }
 
+/// The words of `coagula import` that give the box back.
+std::string box_words(const Cell& cell) {
+    const Eigen::Matrix3d& edges = cell.edges();
+    std::vector<double> lengths = {edges(0, 0), edges(1, 1), edges(2, 2)};
+    if (edges(0, 1) != 0 || edges(0, 2) != 0 || edges(1, 2) != 0) {
+        lengths.insert(lengths.end(), {edges(0, 1), edges(0, 2), edges(1, 2)});
+    }
+    std::string box;
+    for (const double length : lengths) {
+        box += (box.empty() ? "" : ",") + to_text(length) + "m";
+    }
+    std::string axes;
+    for (int axis = 0; axis < 3; ++axis) {
+        axes += cell.is_periodic(axis) ? std::string(axes.empty() ? "" : ",") + "xyz"[axis] : "";
+    }
+    return "--box " + box + (cell.is_periodic() ? "" : " --periodic " + axes);
+}
+
 }  // namespace
 
 Printed export_file(const Arguments& arguments) {
@@ -97,6 +115,12 @@ Printed export_file(const Arguments& arguments) {
     Table table = {{"particles", std::to_string(structure.packing.size())}, {"written to", output}};
     if (all_frames) {
         table.insert(table.begin() + 1, {"frames", std::to_string(frames)});
+    }
+    const Cell& cell = structure.packing.cell;
+    if (format.name == "csv" && (cell.is_periodic(0) || cell.is_periodic(1) || cell.is_periodic(2))) {
+        const std::string note = "a CSV file has no box; coagula import takes it from " + box_words(cell);
+        json["notes"] = Json::array({note});
+        table.emplace_back("note", note);
     }
     return {std::move(json), std::move(table)};
 }

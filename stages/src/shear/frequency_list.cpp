@@ -5,13 +5,20 @@
 
 #include <coagula/common/checks.hpp>
 
+#include <numbers>
+
 namespace coagula::stages {
 
 namespace {
 
 constexpr std::size_t most_frequencies = 10000;
 
+/// In Hz, or in rad/s as rheometers write angular frequencies.
 double parse_frequency(const std::string& word) {
+    if (word.ends_with("rad/s")) {
+        constexpr double turn = 2 * std::numbers::pi;
+        return parse_quantity(word, "rad/s", within(turn * physical::frequency.low, turn * physical::frequency.high)) / turn;
+    }
     return parse_quantity(word, "Hz", physical::frequency);
 }
 

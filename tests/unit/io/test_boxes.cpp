@@ -122,9 +122,10 @@ TEST_F(Boxes, ParticlesOutsideATiltedOneAreNamed) {
         read_text(path, TextFormat::extended_xyz, in_metres(0.1));
         FAIL();
     } catch (const InputError& error) {
-        EXPECT_EQ(std::string(error.what()), path +
-                                                 ", line 4: it lies at -0.25 of edge a, outside the periodic box from 0 to 1; give "
-                                                 "--wrap to bring such particles back in");
+        EXPECT_EQ(std::string(error.what()),
+                  path +
+                      ", line 4: the centre lies at -0.25 of edge a, outside the periodic box from 0 to 1; give "
+                      "--wrap to bring such particles back in");
     }
     ImportOptions wrapping = in_metres(0.1);
     wrapping.wrap = true;
