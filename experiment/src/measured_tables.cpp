@@ -145,6 +145,20 @@ private:
                std::any_of(rules_.standard_errors.begin(), rules_.standard_errors.end(), claims);
     }
 
+    /// What an experiment file must say about all of them, with SI units to begin with.
+    std::string columns_without_unit() const {
+        std::string list;
+        for (std::size_t k = 0; k < table_.columns.size(); ++k) {
+            const io::PlainColumn& column = table_.columns[k];
+            const diagnose::Quantity* quantity = diagnose::find_quantity(column.quantity);
+            if (quantity != nullptr && column.unit.empty() && has_numbers(column) && !is_pure_number(quantity->name)) {
+                list += (list.empty() ? "" : ", ") + column.quantity + " = \"" + column.heading + " [" +
+                        std::string(quantity->unit) + "]\"";
+            }
+        }
+        return list;
+    }
+
     /// @param rules where the experiment file may name the column.
     std::vector<double> in_si(const io::PlainColumn& column, const diagnose::Quantity& quantity,
                               const std::map<std::string, std::string>& rules) const {
@@ -153,8 +167,7 @@ private:
         const std::string unit = column.unit.empty() && rule != rules.end() ? added_unit(column, rule->second) : column.unit;
         if (unit.empty() && !is_pure_number(quantity.name)) {
             fail(name + " names no unit; it must be one that converts into " + std::string(quantity.unit) +
-                 ": write it into the file or into the experiment file, columns = { " + std::string(quantity.name) + " = \"" +
-                 column.heading + " [" + std::string(quantity.unit) + "]\" }");
+                 ": write it into the file or into the experiment file, columns = { " + columns_without_unit() + " }");
         }
         // An angular frequency is often given in 1/s, its radian left out.
         const bool radian_left_out = quantity.unit == "rad/s" && (unit == "1/s" || unit == "s^-1" || unit == "s-1");

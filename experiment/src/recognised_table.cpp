@@ -260,6 +260,12 @@ std::string problem_of(Measurement measurement, const diagnose::Instrument& inst
     }
 }
 
+/// A reason without the label of its table, which is told beside it.
+std::string unlabelled(std::string reason, const std::string& label) {
+    const std::size_t place = reason.find(label + ": ");
+    return place == std::string::npos ? reason : reason.erase(place, label.size() + 2);
+}
+
 /// The table as one measurement.
 RecognisedTable as_one(const io::PlainTable& table, const diagnose::Instrument& instrument) {
     const std::string label = "table " + std::to_string(table.number);
@@ -274,12 +280,13 @@ RecognisedTable as_one(const io::PlainTable& table, const diagnose::Instrument& 
             diagnose::derive_viscosity(measurement);
             recognised.yields = yields(measurement);
             if (const std::string problem = problem_of(measurement, instrument); !problem.empty()) {
-                recognised = {std::nullopt, std::string(diagnose::name_of(*recognised.kind)) + ", but " + problem};
+                recognised = {std::nullopt,
+                              std::string(diagnose::name_of(*recognised.kind)) + ", but " + unlabelled(problem, label)};
             }
         }
         return recognised;
     } catch (const InputError& error) {
-        return {std::nullopt, error.what()};
+        return {std::nullopt, unlabelled(error.what(), label)};
     }
 }
 
@@ -293,7 +300,7 @@ RecognisedTable as_step(const io::PlainTable& rows, const RateStep& step, const 
     const Measurement measurement = start_up_of(to_measurement(rows, MeasurementKind::start_up, label, recognised.rules), step);
     if (const std::string problem = problem_of(measurement, instrument); !problem.empty()) {
         recognised.kind.reset();
-        recognised.reason += ", but " + problem;
+        recognised.reason += ", but " + unlabelled(problem, label);
     }
     return recognised;
 }

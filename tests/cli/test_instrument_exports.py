@@ -32,7 +32,7 @@ class NewExperiment(ProgramTest):
     def test_trios(self):
         self.assertEqual(self.accepted(DATA / "trios_lims_json/multi_technique.txt"), ["amplitude-sweep", "frequency-sweep"])
         text = (self.folder / "e.toml").read_text()
-        self.assertIn("# table 3, 'Flow ramp - 3', 223 rows, is not used: flow-curve, but table 3: the rows are in the wrong order", text)
+        self.assertIn("# table 3, 'Flow ramp - 3', 223 rows, is not used: flow-curve, but the rows are in the wrong order", text)
 
     def test_twenty_temperatures(self):
         self.assertEqual(self.accepted(DATA / "trios_lims_json/frequency_sweep_tts.txt"), 20 * ["frequency-sweep"])
