@@ -79,6 +79,14 @@ class Plot(ProgramTest):
     def test_the_other_measures_have_their_figures(self):
         self.draw_measures(MEASURES[1::2])
 
+    def test_files_of_one_name_are_told_apart(self):
+        for folder in ("dense", "loose"):
+            (self.folder / folder).mkdir()
+            self.copy_of_measured(f"{folder}/gel.h5")
+        found = self.succeed_json("plot", "dense/gel.h5", "loose/gel.h5", "--figure", "pore-curve", "-o", "a.svg")
+        names = {series["name"].split(",")[0] for series in found["series"]}
+        self.assertTrue(any("dense/gel" in name for name in names) and any("loose/gel" in name for name in names), names)
+
     def test_size_and_units(self):
         path = self.copy_of_measured("a.h5")
         found = self.succeed_json("plot", path, "--figure", "modulus-volume-fraction", "-o", "a.svg", "--width", "12cm", "--height", "80mm")

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <map>
 #include <optional>
 
 namespace coagula::stages {
@@ -75,10 +76,23 @@ struct ReadSources {
     std::vector<std::string> skipped;
 };
 
+/// No labels, which takes the names of the files; of files with one name, their paths.
+std::vector<std::string> labels_of(const std::vector<InputFile>& files) {
+    std::map<fs::path, int> names;
+    for (const InputFile& file : files) {
+        ++names[fs::path(file.path).filename()];
+    }
+    std::vector<std::string> labels;
+    for (const InputFile& file : files) {
+        const fs::path path(file.path);
+        labels.push_back(names[path.filename()] > 1 ? fs::path(path).replace_extension().string() : "");
+    }
+    return labels;
+}
+
 ReadSources read_sources(const Arguments& arguments) {
     const std::vector<InputFile> files = files_of(arguments);
-    const std::vector<std::string> labels =
-        arguments.has("labels") ? split(arguments.text("labels")) : std::vector<std::string>(files.size());
+    const std::vector<std::string> labels = arguments.has("labels") ? split(arguments.text("labels")) : labels_of(files);
     if (labels.size() != files.size()) {
         throw InputError(arguments.spelled("labels") + " has " + std::to_string(labels.size()) + " labels for " +
                          std::to_string(files.size()) + " files: each file needs one");
