@@ -63,17 +63,16 @@ std::optional<Solution> solve_until(double stop, const Problem& problem, const E
 }
 
 /// Near the tolerance modes with hardly any stiffness may move far for rounding errors alone, so that one iteration more loses what
-/// the ones before have reached: then the solver stops sooner.
-Solution solve_directly(const Problem& problem, const EliminationOrder& order, const LinearOptions& options,
-                        const Progress& progress, Index& floppy_modes) {
+/// the ones before have reached: then the solver stops sooner. Nothing where that is not enough either.
+std::optional<Solution> solve_directly(const Problem& problem, const EliminationOrder& order, const LinearOptions& options,
+                                       const Progress& progress, Index& floppy_modes) {
     const BlasThreads threads(order.predicted_memory() > large_factor ? 2 : 1);  // the bits of the factor depend on their number
     for (const double sooner : {1.0, 10.0}) {
         if (auto solution = solve_until(sooner * options.tolerance, problem, order, options, progress, floppy_modes)) {
-            return *std::move(solution);
+            return solution;
         }
     }
-    throw std::runtime_error("the direct solver did not reach the residual " + to_text(options.tolerance) +
-                             "; the network is too close to losing its stiffness, or the tolerance is too small");
+    return std::nullopt;
 }
 
 /// Positions of the load-bearing particles in the cell, each coordinate in [0, 1).
@@ -136,15 +135,25 @@ SolvedNetwork solve_network(const LinearNetwork& network, const Packing& packing
     const EliminationOrder order = elimination_order(problem.upper, Ordering::nested_dissection);
     SolvedNetwork solved;
     solved.predicted_memory = order.predicted_memory();
-    const bool direct = options.solver == LinearSolver::direct ||
-                        (options.solver == LinearSolver::automatic && order.predicted_memory() <= options.memory_limit);
+    const bool wants_direct = options.solver == LinearSolver::direct ||
+                              (options.solver == LinearSolver::automatic && order.predicted_memory() <= options.memory_limit);
+    std::optional<Solution> solution;
+    if (wants_direct) {
+        solution = solve_directly(problem, order, options, progress, solved.floppy_modes);
+    }
+    const bool direct = solution.has_value();
+    if (!direct && options.solver == LinearSolver::direct) {
+        throw std::runtime_error("the direct solver did not reach the residual " + to_text(options.tolerance) +
+                                 "; the network is too close to losing its stiffness, or the tolerance is too small");
+    }
+    if (!direct) {  // of motions with hardly any stiffness it leaves what adds no energy
+        solution = solve_iteratively(problem, packing, kept, options, progress);
+    }
     solved.solver = direct ? LinearSolver::direct : LinearSolver::iterative;
-    Solution solution = direct ? solve_directly(problem, order, options, progress, solved.floppy_modes)
-                               : solve_iteratively(problem, packing, kept, options, progress);
-    solved.motion = std::move(solution.motion);
-    solved.iterations = solution.iterations;
-    solved.residual = solution.residual;
-    solved.modulus_error = direct ? 0.0 : solution.energy_error;
+    solved.motion = std::move(solution->motion);
+    solved.iterations = solution->iterations;
+    solved.residual = solution->residual;
+    solved.modulus_error = direct ? 0.0 : solution->energy_error;
     return solved;
 }
 

@@ -196,6 +196,19 @@ TEST(Linear, ReachesItsToleranceBesideSoftModes) {
     EXPECT_NEAR(direct.mean_shear_modulus() / solve_linear(packing, bonds, options).mean_shear_modulus(), 1, 1e-7);
 }
 
+TEST(Linear, AutomaticChoiceGoesOnIterativelyWhereTheDirectSolverFails) {
+    const LinearNetworkSample sample;
+    const LinearResponse usual = solve_linear(sample.packing, sample.bonds);
+    LinearOptions options;
+    options.tolerance = 1e-18;
+    const LinearResponse other = solve_linear(sample.packing, sample.bonds, options);
+    EXPECT_EQ(usual.solver_used, LinearSolver::direct);
+    EXPECT_EQ(other.solver_used, LinearSolver::iterative);
+    EXPECT_NEAR(other.mean_shear_modulus() / usual.mean_shear_modulus(), 1, 1e-4);
+    options.solver = LinearSolver::direct;
+    EXPECT_THROW(solve_linear(sample.packing, sample.bonds, options), std::runtime_error);
+}
+
 TEST(Linear, RefusesImpossibleInput) {
     const LinearNetworkSample sample;
     LinearOptions options;
