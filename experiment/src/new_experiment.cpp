@@ -238,7 +238,7 @@ private:
                      "    # the mean of the last rows at that rate; the flow must have been steady\n";
         }
         if (what.step->time_zero != 0) {
-            text_ += "time_zero = " + quoted(with_unit(what.step->time_zero, "s")) + "    # the last row at the rate before\n";
+            text_ += "time_zero = " + quoted(to_text(what.step->time_zero) + " s") + "    # the last row at the rate before\n";
         }
     }
 

@@ -19,10 +19,10 @@ constexpr double stays_within = 0.05;        // of the rate
 constexpr double same_within = 0.2;          // of the rate; what differs by less is on the way to it
 constexpr double at_rest_within = 1e-3;      // of the largest rate
 constexpr double drifts_less = 1.0 / 3;      // of what the rate may differ by; a ramp drifts by more
-constexpr std::size_t shortest_plateau = 3;  // of a plateau
+constexpr std::size_t shortest_plateau = 3;  // rows
 constexpr std::size_t steady_rows = 5;       // at most, at the end of a plateau, whose stress counts as steady
 
-/// Of the numbers in these rows.
+/// The mean of the numbers in these rows; not a number where there are none.
 double mean(const std::vector<double>& values, std::size_t first, std::size_t last) {
     double sum = 0;
     double count = 0;
@@ -119,10 +119,12 @@ std::vector<RatePlateau> rate_plateaus(const Measurement& table) {
             const RatePlateau& before = plateaus[k - 1];
             const std::size_t steady = std::min(steady_rows, before.last - before.first);
             const bool from_rest = std::abs(rate_of(before)) <= rates.tolerance(0);
+            const double stress_before = from_rest ? 0 : mean(stress, before.last + 1 - steady, before.last);
             const bool clock_goes_on = time->values[plateaus[k].first] > time->values[before.last];
-            plateaus[k].step = RateStep{from_rest ? 0 : rate_of(before), rate_of(plateaus[k]),
-                                        from_rest ? 0 : mean(stress, before.last + 1 - steady, before.last),
-                                        clock_goes_on ? time->values[before.last] : 0};
+            if (std::isfinite(stress_before)) {
+                plateaus[k].step = RateStep{from_rest ? 0 : rate_of(before), rate_of(plateaus[k]), stress_before,
+                                            clock_goes_on ? time->values[before.last] : 0};
+            }
         }
     }
     return 2 * covered >= table.rows() && plateaus.size() > 1 ? plateaus : std::vector<RatePlateau>{};
