@@ -64,16 +64,22 @@ std::string sentence(const CheckedExperiment& /*checked*/, const std::string& te
     return text;
 }
 
+std::string assumption_of(const StepConversion& found) {
+    if (!std::isfinite(found.largest_strain)) {
+        return "";
+    }
+    return found.kind == diagnose::MeasurementKind::start_up
+               ? "; the flow is taken for linear: its stress for proportional to the rate"
+               : "; the sample is taken for linear up to a strain of " + with_unit(100 * found.largest_strain, "%");
+}
+
 std::string sentence(const CheckedExperiment& /*checked*/, const StepConversion& found) {
     const bool relaxation = found.kind == diagnose::MeasurementKind::stress_relaxation;
     return found.label + ", sample '" + found.sample + "': " + std::to_string(found.rows_used) + " rows of the " +
            (relaxation ? "stress relaxation" : std::string(diagnose::name_of(found.kind))) + ", from " +
            with_unit(found.first_time, "s") + " to " + with_unit(found.last_time, "s") + ", are compared as G* at " +
            std::to_string(found.frequencies) + " angular frequencies from " + with_unit(found.lowest_frequency, "rad/s") + " to " +
-           with_unit(found.highest_frequency, "rad/s") + ", where their transform has an error below 10 %" +
-           (std::isfinite(found.largest_strain)
-                ? "; the sample is taken for linear up to a strain of " + with_unit(100 * found.largest_strain, "%")
-                : "");
+           with_unit(found.highest_frequency, "rad/s") + ", where their transform has an error below 10 %" + assumption_of(found);
 }
 
 std::string sentence(const CheckedExperiment& /*checked*/, const DoubtfulClock& clock) {
