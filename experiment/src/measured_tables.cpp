@@ -148,8 +148,7 @@ private:
     /// What an experiment file must say about all of them, with SI units to begin with.
     std::string columns_without_unit() const {
         std::string list;
-        for (std::size_t k = 0; k < table_.columns.size(); ++k) {
-            const io::PlainColumn& column = table_.columns[k];
+        for (const io::PlainColumn& column : table_.columns) {
             const diagnose::Quantity* quantity = diagnose::find_quantity(column.quantity);
             if (quantity != nullptr && column.unit.empty() && has_numbers(column) && !is_pure_number(quantity->name)) {
                 list += (list.empty() ? "" : ", ") + column.quantity + " = \"" + column.heading + " [" +

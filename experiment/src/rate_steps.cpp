@@ -85,6 +85,42 @@ std::vector<double> stress_of(const Measurement& table, const Column& rate) {
     return stress;
 }
 
+/// Rows in which the rate stays, without their steps. A rate that hardly differs from the one before was on the way to it.
+std::vector<RatePlateau> plateaus_of(const std::vector<double>& rate) {
+    const Rates rates(rate);
+    std::vector<RatePlateau> plateaus;
+    for (std::size_t row = 0; row < rate.size(); ++row) {
+        const std::optional<std::size_t> last = rates.plateau_from(row);
+        if (!last) {
+            continue;
+        }
+        const double before = plateaus.empty() ? 0 : mean(rate, plateaus.back().first, plateaus.back().last);
+        const double apart = std::abs(mean(rate, row, *last) - before);
+        if (plateaus.empty() || apart > same_within / stays_within * rates.tolerance(before)) {
+            plateaus.push_back({row, *last, std::nullopt});
+        } else if (*last - row > plateaus.back().last - plateaus.back().first) {
+            plateaus.back() = {row, *last, std::nullopt};
+        }
+        row = *last;
+    }
+    return plateaus;
+}
+
+/// The step between two plateaus; nothing where no number says the stress before.
+std::optional<RateStep> step_between(const RatePlateau& before, const RatePlateau& after, const std::vector<double>& rate,
+                                     const std::vector<double>& stress, const std::vector<double>& time) {
+    const std::size_t steady = std::min(steady_rows, before.last - before.first);
+    RateStep step{mean(rate, before.first, before.last), mean(rate, after.first, after.last),
+                  mean(stress, before.last + 1 - steady, before.last), 0};
+    if (std::abs(step.rate_before) <= Rates(rate).tolerance(0)) {
+        step.rate_before = step.stress_before = 0;
+    }
+    if (time[after.first] > time[before.last]) {  // the clock goes on
+        step.time_zero = time[before.last];
+    }
+    return std::isfinite(step.stress_before) ? std::optional(step) : std::nullopt;
+}
+
 }  // namespace
 
 std::vector<RatePlateau> rate_plateaus(const Measurement& table) {
@@ -94,37 +130,12 @@ std::vector<RatePlateau> rate_plateaus(const Measurement& table) {
     if (rate == nullptr || time == nullptr || stress.empty()) {
         return {};
     }
-    const Rates rates(rate->values);
-    const auto rate_of = [&](const RatePlateau& plateau) { return mean(rate->values, plateau.first, plateau.last); };
-    std::vector<RatePlateau> plateaus;
-    for (std::size_t row = 0; row < table.rows(); ++row) {
-        const std::optional<std::size_t> last = rates.plateau_from(row);
-        if (!last) {
-            continue;
-        }
-        const RatePlateau plateau{row, *last, std::nullopt};
-        const bool is_same = !plateaus.empty() && std::abs(rate_of(plateau) - rate_of(plateaus.back())) <=
-                                                      same_within / stays_within * rates.tolerance(rate_of(plateaus.back()));
-        if (!is_same) {
-            plateaus.push_back(plateau);
-        } else if (*last - row > plateaus.back().last - plateaus.back().first) {  // the other was on the way here
-            plateaus.back() = plateau;
-        }
-        row = *last;
-    }
+    std::vector<RatePlateau> plateaus = plateaus_of(rate->values);
     std::size_t covered = 0;
     for (std::size_t k = 0; k < plateaus.size(); ++k) {
         covered += plateaus[k].last + 1 - plateaus[k].first;
         if (k > 0) {
-            const RatePlateau& before = plateaus[k - 1];
-            const std::size_t steady = std::min(steady_rows, before.last - before.first);
-            const bool from_rest = std::abs(rate_of(before)) <= rates.tolerance(0);
-            const double stress_before = from_rest ? 0 : mean(stress, before.last + 1 - steady, before.last);
-            const bool clock_goes_on = time->values[plateaus[k].first] > time->values[before.last];
-            if (std::isfinite(stress_before)) {
-                plateaus[k].step = RateStep{from_rest ? 0 : rate_of(before), rate_of(plateaus[k]), stress_before,
-                                            clock_goes_on ? time->values[before.last] : 0};
-            }
+            plateaus[k].step = step_between(plateaus[k - 1], plateaus[k], rate->values, stress, time->values);
         }
     }
     return 2 * covered >= table.rows() && plateaus.size() > 1 ? plateaus : std::vector<RatePlateau>{};

@@ -122,7 +122,7 @@ public:
                 if (is_found(last)) {
                     return last;
                 }
-                throw out_of_reach(last, crushed ? "the overlap passes 9 % of the diameter" : "the voids fill the box");
+                throw OutOfReach(how_far(last, crushed ? "the overlap passes 9 % of the diameter" : "the voids fill the box"));
             }
             growth = near_target || contacts.overlap_rms > fine_overlap ? fine_increment : increment;
         }
@@ -235,16 +235,16 @@ private:
         return trial.coordination >= options_.target_coordination && trial.overlap_rms < relaxed_overlap;
     }
 
-    OutOfReach out_of_reach(const VoidExpansion& last, const std::string& where) const {
+    /// How far the packing comes, and what to ask for instead.
+    std::string how_far(const VoidExpansion& last, const std::string& where) const {
         const bool overlaps = last.coordination >= options_.target_coordination;
-        return OutOfReach(
-            "the void expansion cannot reach a coordination of " + to_text(options_.target_coordination) + " with " +
-            std::to_string(options_.voids) + " voids among " + std::to_string(structure_) + " particles at volume fraction " +
-            to_text(options_.volume_fraction) + ": the packing comes to " + short_text(last.coordination) + " where " + where +
-            (overlaps ? ", but without the voids its particles still overlap by " + short_text(100 * last.overlap_rms) +
-                            " %, where " + short_text(100 * relaxed_overlap) + " % is allowed; ask for a lower coordination"
-                      : "; ask for a coordination below that") +
-            ", a higher volume fraction or other numbers of particles and voids");
+        return "the void expansion cannot reach a coordination of " + to_text(options_.target_coordination) + " with " +
+               std::to_string(options_.voids) + " voids among " + std::to_string(structure_) + " particles at volume fraction " +
+               to_text(options_.volume_fraction) + ": the packing comes to " + short_text(last.coordination) + " where " + where +
+               (overlaps ? ", but without the voids its particles still overlap by " + short_text(100 * last.overlap_rms) +
+                               " %, where " + short_text(100 * relaxed_overlap) + " % is allowed; ask for a lower coordination"
+                         : "; ask for a coordination below that") +
+               ", a higher volume fraction or other numbers of particles and voids";
     }
 
     /// The result, in metres.
