@@ -34,6 +34,7 @@ MEASURES = {  # name: column of the index
     "contacts between dense clusters": "dense_between",
     "rings of four": "rings4",
     "redundancy per particle": "redundancy",
+    "correlation length of the response": "length",
 }
 LAW = ("coordination C", "triangles per particle T")
 PUBLISHED = pathlib.Path(__file__).parent.parent / "schenker2012" / "published_structures.csv"
@@ -119,16 +120,18 @@ def print_left(rows):
         print(f"  {group:20s} off the common line by {own.mean():6.3f} +- {own.std() / len(own)**0.5:.3f} MPa")
 
 
-def print_triangle_price(rows):
+def print_triangle_price(rows, kind="G"):
     """Contacts that a triangle takes away: G' = g (C - C0 - b T)."""
     for ratio in RATIOS:
-        there = [row for row in rows if numpy.isfinite(row[f"G_{ratio:g}"])]
-        matrix, modulus = matrix_of(there, LAW), column(there, f"G_{ratio:g}")
+        there = [row for row in rows if numpy.isfinite(row[f"{kind}_{ratio:g}"])]
+        matrix, modulus = matrix_of(there, LAW), column(there, f"{kind}_{ratio:g}")
         generator = numpy.random.default_rng(3)
         draws = [fit(matrix[draw], modulus[draw]) for draw in (generator.integers(len(there), size=len(there)) for _ in range(RESAMPLES))]
         values = numpy.array([[-one[2] / one[1], -one[0] / one[1], one[1]] for one in [fit(matrix, modulus), *draws]])
         (price, onset, slope), errors = values[0], values[1:].std(axis=0)
-        print(f"  k_s/k_n = {ratio:<5g} G' = {slope:.2f} MPa (C - {onset:.2f} - {price:.2f} T); errors {errors[2]:.2f}, {errors[1]:.2f}, {errors[0]:.2f}")
+        share = 1 - numpy.var(modulus - matrix @ fit(matrix, modulus)) / numpy.var(modulus)
+        print(f"  k_s/k_n = {ratio:<5g} G' = {slope:.2f} MPa (C - {onset:.2f} - {price:.2f} T); errors {errors[2]:.2f}, {errors[1]:.2f}, {errors[0]:.2f}; "
+              f"{100 * share:.0f} % of the variance, {len(there)} structures")
 
 
 def collapse(rows, groups):
@@ -141,12 +144,24 @@ def collapse(rows, groups):
 
 
 def print_sizes(rows, known):
-    """Structures of other sizes, held against the line of those of 2000 particles."""
+    """Structures of other sizes, held against the line of those of 8000 particles."""
     law = fit(matrix_of(known, LAW), column(known, "G_0.1"))
     for particles in sorted({row["particles"] for row in rows}):
         there = [row for row in rows if row["particles"] == particles]
         off = column(there, "G_0.1") - matrix_of(there, LAW) @ law
         print(f"  N = {particles:g}: off the line by {off.mean():.3f} +- {off.std() / len(off)**0.5:.3f} MPa, {len(there)} structures")
+
+
+def print_bending(rows):
+    """The same structures with contacts that resist bending and twisting, beside contacts that do not."""
+    for kind, words in (("G", "without bending"), ("bending", "with bending")):
+        print(f"  {words}:")
+        print_triangle_price(rows, kind)
+    for ratio in RATIOS:
+        more = column(rows, f"bending_{ratio:g}") / column(rows, f"G_{ratio:g}")
+        value, error = resampled(rows, column(rows, f"bending_{ratio:g}"), (*LAW, "heterogeneity a"), -1)
+        print(f"  k_s/k_n = {ratio:<5g} bending multiplies G' by {more.min():.2f} to {more.max():.2f}, median {numpy.median(more):.2f}; "
+              f"G' with it by 0.1 of a at equal contacts and triangles {value / 10:.3f} +- {error / 10:.3f} MPa")
 
 
 def print_fractions(rows, known):
@@ -204,37 +219,38 @@ def draw(rows, path):
 
 def main():
     rows = [row for row in read(sys.argv[1]) if numpy.isfinite(row["G_0.1"])]
-    ours = [row for row in rows if row["volume_fraction"] == 0.4 and row["particles"] == 2000]
-    tuned = [row for row in ours if row["generator"] != "depletion gel"]
+    with_diluted = [row for row in rows if row["set"].endswith("_8000")]
+    ours = [row for row in with_diluted if row["generator"] != "diluted"]
+    small = [row for row in rows if row["set"] in ("void_expansion", "brownian", "depletion", "to_dilute")]
+    small_tuned = [row for row in small if row["generator"] not in ("depletion gel", "diluted")]
     print("G' at k_s/k_n = 0.1 predicted for a generator that the fit has not seen: share of the variance (90 % interval), rms error")
-    print_predictors(ours, column(ours, "G_0.1"))
-    print("\nthe same without depletion gels")
-    print_predictors(tuned, column(tuned, "G_0.1"))
-    print("\nthe same with networks that were diluted at random, of 1000 particles")
-    with_diluted = ours + [row for row in rows if row["generator"] == "diluted"]
-    print_predictors(with_diluted, column(with_diluted, "G_0.1"))
-    print("\nleft at equal contacts and triangles, without depletion gels")
-    print_left(tuned)
-    print("\nthe same with all generators")
-    print_left(with_diluted)
-    print("\nthe price of a triangle, in contacts per particle, without depletion gels")
-    print_triangle_price(tuned)
+    for words, chosen in (("8000 particles", ours), ("the same with networks that were diluted at random", with_diluted),
+                          ("2000 particles, with depletion gels and with diluted networks of 1000", small)):
+        print(f"\n{words}")
+        print_predictors(chosen, column(chosen, "G_0.1"))
+    print("\nleft at equal contacts and triangles, 8000 particles without diluted networks")
+    print_left(ours)
+    print("\nthe price of a triangle, in contacts per particle")
+    print_triangle_price(ours)
     print("\none variable, C - b T: variance that a parabola through it explains for what is left out")
-    for name, chosen in (("all generators", with_diluted), ("without depletion gels and diluted networks", tuned)):
+    for name, chosen in (("8000 particles", ours), ("with diluted networks", with_diluted), ("2000 particles with gels and diluted networks", small)):
         _, share, error = collapse(chosen, column(chosen, "generator"))
         print(f"  {name}: {100 * share:.0f} %, {error:.3f} MPa, {len(chosen)} structures")
-    print_sizes([row for row in rows if row["set"] == "sizes"], tuned)
-    print("\nstructures of 8000 particles, as the paper has them: beside that line, and by themselves")
-    large = [row for row in rows if row["set"].endswith("_8000")]
-    print_sizes(large, tuned)
-    print_triangle_price(large)
-    print_left(large)
+    print("\nother sizes beside that line")
+    print_sizes([row for row in rows if row["set"] in ("sizes", "void_expansion", "brownian")], ours)
+    print("\n2000 particles by themselves, without depletion gels")
+    print_triangle_price(small_tuned)
+    print_left(small_tuned)
+    print("\nall generators of 2000 particles, and diluted networks of 1000, off their common line")
+    print_left(small)
+    print("\ncontacts that resist bending")
+    print_bending([row for row in rows if row["set"] == "bending"])
     print("\nthe law of phi = 0.4 at other volume fractions")
-    print_fractions(rows, tuned)
+    print_fractions(rows, ours)
     print("\nwhat the published structures would need")
-    print_published(tuned)
+    print_published(ours)
     if len(sys.argv) > 2 and shutil.which("gnuplot"):
-        draw(with_diluted, pathlib.Path(sys.argv[2]))
+        draw(with_diluted + [row for row in small if row["generator"] == "depletion gel"], pathlib.Path(sys.argv[2]))
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@
     datasets/critical_heterogeneity/tables.py FOLDER index.csv.xz [SET ...]
 
 reads the data sets that `coagula dataset run` has made in FOLDER of the sweep files beside this script, takes measures of the contact network that the
-sweeps leave out from the particles, and dilutes the networks of to_dilute.h5. With names of sets only their rows are made anew. Needs the Python package of coagula, numpy and scipy.
+sweeps leave out from the particles, and dilutes the networks of to_dilute.h5 and to_dilute_8000.h5. With names of sets only their rows are made anew. Needs the Python package of coagula, numpy and scipy.
 """
 
 import csv
@@ -16,17 +16,21 @@ import sys
 
 import coagula
 import numpy
+import scipy.spatial
 
 from networks import Network, shear_modulus
 
-SETS = ("void_expansion", "brownian", "depletion", "volume_fractions", "sizes", "void_expansion_8000", "brownian_8000")
+SETS = ("void_expansion", "brownian", "depletion", "volume_fractions", "sizes", "bending", "void_expansion_8000", "brownian_8000")
+DILUTED = ("to_dilute", "to_dilute_8000")
 RATIOS = {100.0: "G_1", 10.0: "G_0.1", 1.0: "G_0.01"}  # by the shear stiffness of a particle [N/m]
+BENDING = {name: name.replace("G", "bending") for name in RATIOS.values()}  # the same where contacts resist bending, too
 COLUMNS = {"a": "doh.a", "C": "coordination", "redundancy": "rigidity.redundancy_per_particle"}
 NETWORK = {"triangles": "topology.triangles", "tetrahedra": "topology.tetrahedra", "outside": "topology.contacts_outside_triangles",
            "three": "coordination_percolation.three_or_more.fraction", "six": "coordination_percolation.six_or_more.fraction",
            "six_largest": "coordination_percolation.six_or_more.largest_fraction", "betweenness": "betweenness.top_tenth_share",
            "dense_largest": "dense_clusters.triangles.largest_fraction", "dense_between": "dense_clusters.triangles.contacts_between"}
-FIELDS = ["set", "generator", "particles", "volume_fraction", "recipe", "seed", *COLUMNS, "rings4", *NETWORK, *RATIOS.values()]
+FIELDS = ["set", "generator", "particles", "volume_fraction", "recipe", "seed", *COLUMNS, "rings4", *NETWORK, "length", *RATIOS.values(), *BENDING.values()]
+FARTHEST = 4.0  # diameters up to which directions are compared
 
 
 def at(result, path):
@@ -56,6 +60,28 @@ def network_measures(structure, tolerance):
     return {name: at(found, path) for name, path in NETWORK.items()} | {"rings4": float(found["rings"]["per_particle"][4])}
 
 
+def correlation_length(packing, tolerance):
+    """Of the non-affine displacement under shear [diameters]: the integral over the distance, up to FARTHEST, of the mean cosine between the
+    displacements of two particles, less the median displacement. A length of the response, as those of arXiv:2504.19568 and 2505.04554 are."""
+    moved = coagula.shear(packing, bond_tolerance=tolerance, tolerance=1e-7).per_particle
+    diameter, edges = 2 * packing.radii.mean(), numpy.diag(packing.edges)
+    tree = scipy.spatial.cKDTree(numpy.mod(packing.positions, edges), boxsize=edges)
+    pairs = tree.query_pairs(FARTHEST * diameter, output_type="ndarray")
+    apart = packing.positions[pairs[:, 1]] - packing.positions[pairs[:, 0]]
+    distance = numpy.linalg.norm(apart - edges * numpy.round(apart / edges), axis=1) / diameter
+    cosines = numpy.zeros(len(pairs))
+    for plane in ("xy", "xz", "yz"):
+        displacement = numpy.asarray(moved[f"nonaffine_displacement_{plane}"])
+        displacement = displacement - numpy.median(displacement, axis=0)
+        direction = displacement / numpy.maximum(numpy.linalg.norm(displacement, axis=1), 1e-300)[:, None]
+        cosines += numpy.einsum("pi,pi->p", direction[pairs[:, 0]], direction[pairs[:, 1]]) / 3
+    shells = numpy.arange(1.0, FARTHEST + 0.25, 0.25)
+    within = numpy.digitize(distance, shells)
+    number = numpy.bincount(within, minlength=len(shells) + 1)
+    mean = numpy.bincount(within, cosines, minlength=len(shells) + 1) / numpy.maximum(number, 1)
+    return 1.0 + 0.25 * float(mean[1:len(shells)].sum())  # a particle moves with itself: the first diameter counts whole
+
+
 def rows_of(name, folder):
     """One row for each structure, whose copies in the set differ in the shear stiffness alone."""
     data = coagula.open_dataset(str(folder / f"{name}.h5"))
@@ -73,14 +99,18 @@ def rows_of(name, folder):
                          "particles": particles, "seed": int(table["seed"][number]),
                          "volume_fraction": round(float(table["volume_fraction"][number]), 6),
                          **{short: float(table[column][number]) for short, column in COLUMNS.items()},
-                         **network_measures(structure, float(table["contact_tolerance"][number]))}
-        rows[key][RATIOS[float(table["shear-stiffness"][number])]] = float(table["storage_modulus.mean"][number]) / 1e6
+                         **network_measures(structure, float(table["contact_tolerance"][number])),
+                         "length": correlation_length(structure.packing, float(table["bond_tolerance"][number]))}
+        column = RATIOS[float(table["shear-stiffness"][number])]
+        resists = name == "bending" and str(table["model"][number]) == "bending_contacts.toml"
+        rows[key][BENDING[column] if resists else column] = float(table["storage_modulus.mean"][number]) / 1e6
     return list(rows.values())
 
 
-def diluted(folder, coordinations=(4.5, 4.7, 4.9)):
-    """Dense networks without contacts that were drawn at random."""
-    data = coagula.open_dataset(str(folder / "to_dilute.h5"))
+def diluted(name, folder, coordinations=(4.5, 4.7, 4.9)):
+    """Dense networks without contacts that were drawn at random; large ones at one ratio of the stiffnesses."""
+    ratios = RATIOS if name == "to_dilute" else {10.0: "G_0.1"}
+    data = coagula.open_dataset(str(folder / f"{name}.h5"))
     table = data.table()
     for number in range(len(data)):
         if str(table["status"][number]) != "done":
@@ -89,21 +119,21 @@ def diluted(folder, coordinations=(4.5, 4.7, 4.9)):
         order = numpy.random.default_rng(number).permutation(len(whole.bonds))
         for contacts in coordinations:
             part = whole.part(numpy.sort(order[:round(contacts * whole.particles / 2)]))
-            moduli = {name: shear_modulus(part, 50.0, stiffness / 2) / 1e6 for stiffness, name in RATIOS.items()}
-            yield {"set": "to_dilute", "generator": "diluted", "particles": whole.particles,
+            moduli = {column: shear_modulus(part, 50.0, stiffness / 2) / 1e6 for stiffness, column in ratios.items()}
+            yield {"set": name, "generator": "diluted", "particles": whole.particles,
                    "volume_fraction": 0.4, "recipe": contacts, "seed": int(table["seed"][number]), "a": float(table["doh.a"][number]),
                    **part.measures(), **moduli}
 
 
 def main():
     folder, output = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
-    wanted = sys.argv[3:] or [*SETS, "to_dilute"]
+    wanted = sys.argv[3:] or [*SETS, *DILUTED]
     rows = []
     if output.exists():
         with lzma.open(output, "rt", encoding="utf-8") as file:
             rows = [row for row in csv.DictReader(file) if row["set"] not in wanted]
     for name in wanted:
-        rows += diluted(folder) if name == "to_dilute" else rows_of(name, folder)
+        rows += diluted(name, folder) if name in DILUTED else rows_of(name, folder)
     with lzma.open(output, "wt", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, FIELDS, restval="")
         writer.writeheader()
