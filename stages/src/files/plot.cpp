@@ -161,8 +161,8 @@ void set_ranges(const Arguments& arguments, Drawing& drawing) {
         }
         for (Chart& chart : drawing.panels) {
             if (!chart.picture) {
-                arguments.parsed(name, [&](const std::string& text) {
-                    set_range(text, chart.*axis);
+                arguments.parsed(name, [&range = chart.*axis](const std::string& text) {
+                    set_range(text, range);
                     return 0;
                 });
             }
