@@ -145,7 +145,7 @@ private:
                std::any_of(rules_.standard_errors.begin(), rules_.standard_errors.end(), claims);
     }
 
-    /// What an experiment file must say about all of them, with SI units to begin with.
+    /// All columns that lack a unit as an experiment file names them, with SI units to begin with.
     std::string columns_without_unit() const {
         std::string list;
         for (const io::PlainColumn& column : table_.columns) {

@@ -312,17 +312,6 @@ class Endings(ProgramTest):
         self.fail_with(2, "export", "a.h5", says=["--format", "--output"])
         self.fail_with(2, "characterize", "b.xyz", says=["b.xyz", "not an HDF5 file", "coagula import"])
 
-    def test_the_box_that_a_csv_file_lacks(self):
-        self.write("tilted.xyz", '2\nLattice="6 0 0 1 5 0 0.5 -1 4" pbc="T T F" Properties=species:S:1:pos:R:3:radius:R:1\nA 1 1 1 0.5\nA 3 2 2 0.5\n')
-        self.succeed("import", "tilted.xyz", "--length-unit", "1um", "-o", "a.h5")
-        (note,) = self.succeed_json("export", "a.h5", "-o", "a.csv")["notes"]
-        words = note[note.index("--box"):].split()
-        self.succeed("import", "a.csv", *words, "-o", "b.h5")
-        with h5py.File(self.folder / "a.h5") as one, h5py.File(self.folder / "b.h5") as other:
-            edges = "particles/trajectory/box/edges/value"
-            numpy.testing.assert_allclose(one[edges][:], other[edges][:], rtol=1e-12)
-            self.assertEqual(list(one["particles/trajectory/box"].attrs["boundary"]), list(other["particles/trajectory/box"].attrs["boundary"]))
-
 
 class Vtk(ProgramTest):
     def test_as_vtk_reads_it(self):

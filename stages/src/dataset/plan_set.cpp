@@ -93,7 +93,7 @@ std::map<std::string, std::vector<const SetRow*>> ends_of_trajectories(const Swe
     return of_generators;
 }
 
-/// What a few structures cost that are spread over the sweep.
+/// The cost of a few structures that are spread over the sweep.
 struct Calibration {
     std::map<std::string, Cost> costs;  ///< the mean cost of a particle by each generator
     std::size_t structures = 0;
